@@ -1,0 +1,99 @@
+"""The machinery behind `params.py`: one dataclass field is a parameter's default, unit, bounds, text and source.
+
+YAML files, ROS declarations and the tables of the documentation are made from it, so none of them can drift.
+"""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+Number = float | int
+
+
+class ParameterError(ValueError):
+    """A parameter is unknown or its value is not allowed; the text names it, its value and its bounds."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Meta:
+    """What is known of a parameter beside its default."""
+
+    unit: str
+    bounds: tuple[Number, Number] | None
+    choices: tuple[str, ...]
+    doc: str
+    source: str
+
+    @property
+    def allowed(self) -> str:
+        """The allowed values in words."""
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        if self.bounds:
+            return f"within {self.bounds[0]:g} .. {self.bounds[1]:g}" + (f" {self.unit}" if self.unit else "")
+        return "any"
+
+
+def parameter(
+    default: Any,
+    doc: str,
+    *,
+    unit: str = "",
+    bounds: tuple[Number, Number] | None = None,
+    choices: tuple[str, ...] = (),
+    source: str = "",
+) -> Any:
+    """Declare one parameter as a dataclass field."""
+    return dataclasses.field(default=default, metadata={"meta": Meta(unit, bounds, choices, doc, source)})
+
+
+def meta(field: dataclasses.Field) -> Meta:
+    """Return what was declared for a field."""
+    return field.metadata["meta"]
+
+
+def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
+    """Return the value as the field's type; an integer where a float is meant is accepted."""
+    wanted = type(field.default)
+    if wanted is float and isinstance(value, int) and not isinstance(value, bool):
+        value = float(value)
+    known = meta(field)
+    good = isinstance(value, wanted) and (wanted is bool or not isinstance(value, bool))
+    if good and known.bounds:
+        good = known.bounds[0] <= value <= known.bounds[1]  # NaN fails too
+    if good and known.choices:
+        good = value in known.choices
+    if not good:
+        raise ParameterError(f"{name} = {value!r}: must be {wanted.__name__}, {known.allowed}")
+    return value
+
+
+def from_mapping(cls: type[T], mapping: Mapping[str, Any], prefix: str = "") -> T:
+    """Build a parameter class from {name: value}; missing names keep their default, unknown ones are an error."""
+    fields = {f.name: f for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+    for name in mapping:
+        if name not in fields:
+            raise ParameterError(f"{prefix}{name}: unknown parameter; known are {', '.join(fields)}")
+    return cls(**{n: checked(prefix + n, fields[n], v) for n, v in mapping.items()})
+
+
+def yaml_lines(cls: type, indent: str) -> list[str]:
+    """Return the parameters of a class as YAML with their text, unit and bounds as comments."""
+    lines = []
+    for field in dataclasses.fields(cls):
+        known = meta(field)
+        value = str(field.default).lower() if isinstance(field.default, bool) else repr(field.default)
+        lines.append(f"{indent}# {known.doc} ({known.allowed})")
+        lines.append(f"{indent}{field.name}: {value}")
+    return lines
+
+
+def markdown_rows(cls: type) -> list[str]:
+    """Return one table row per parameter: name, default, unit, allowed values, text, source."""
+    rows = []
+    for field in dataclasses.fields(cls):
+        known = meta(field)
+        cells = (f"`{field.name}`", f"`{field.default}`", known.unit, known.allowed, known.doc, known.source)
+        rows.append("| " + " | ".join(cells) + " |")
+    return rows

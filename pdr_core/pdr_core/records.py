@@ -1,0 +1,120 @@
+"""What travels between the stages. Everything is SI and says its unit; nothing here computes.
+
+A block is a run of consecutive samples, column by column; one live sample is a block of length one. So every stage
+has one method, `run(block)`, live and offline.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Stamps = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+Block = TypeVar("Block", bound=tuple)
+
+
+class ImuBlock(NamedTuple):
+    """n samples of one inertial sensor. A standard deviation of -1 says that the quantity was not measured."""
+
+    stamp_ns: Stamps  # (n,)
+    gyro_radps: Floats  # (n, 3) angular rate
+    accel_mps2: Floats  # (n, 3) specific force, +g upwards at rest
+    gyro_sd_radps: Floats  # (n,) noise of one sample; 0 = unknown
+    accel_sd_mps2: Floats  # (n,)
+
+
+class StanceBlock(NamedTuple):
+    """n samples and the verdict on each. A rest that has just ended brings its mean rate; a deviation of 0: none."""
+
+    imu: ImuBlock
+    stance: Flags  # (n,)
+    statistic: Floats  # (n,) of the detector
+    threshold: Floats  # (n,) stance needs statistic <= threshold
+    rest_rate_radps: Floats  # (n, 3)
+    rest_sd_radps: Floats  # (n,)
+
+
+class NavBlock(NamedTuple):
+    """n estimates of one foot in the world frame, with the covariances that nav_msgs/Odometry asks for."""
+
+    stamp_ns: Stamps  # (n,)
+    position_m: Floats  # (n, 3)
+    quat_xyzw: Floats  # (n, 4) world from foot
+    velocity_mps: Floats  # (n, 3) in the world frame
+    rate_radps: Floats  # (n, 3) bias-corrected, in the foot frame
+    pose_covariance: Floats  # (n, 6, 6) x, y, z, rotation about the world's x, y, z
+    velocity_covariance: Floats  # (n, 3, 3) in the world frame
+
+
+@dataclass(frozen=True)
+class StepEvent:
+    """One step of one foot: from the end of one stance to the end of the next."""
+
+    index: int  # 1, 2, 3 ...; 0 is where the walk starts
+    start_ns: int
+    stamp_ns: int
+    position_m: Floats  # (3,)
+    displacement_m: Floats  # (3,)
+    displacement_covariance_m2: Floats  # (3, 3)
+    yaw_rad: float  # of the foot while it stands
+    yaw_sd_rad: float
+
+    @property
+    def length_m(self) -> float:
+        """Horizontal length."""
+        return float(np.hypot(self.displacement_m[0], self.displacement_m[1]))
+
+    @property
+    def heading_rad(self) -> float:
+        """Direction of the displacement, counter-clockwise from x."""
+        return float(np.arctan2(self.displacement_m[1], self.displacement_m[0]))
+
+    @property
+    def heading_sd_rad(self) -> float:
+        """Standard deviation of the heading, at most pi: a step on the spot has none."""
+        across = np.array([-np.sin(self.heading_rad), np.cos(self.heading_rad)])
+        variance_m2 = float(across @ self.displacement_covariance_m2[:2, :2] @ across)
+        return min(np.pi, float(np.sqrt(variance_m2)) / max(self.length_m, 1e-6))
+
+
+class Level(Enum):
+    """How bad a notice is; the values are those of diagnostic_msgs/DiagnosticStatus."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+
+
+@dataclass(frozen=True)
+class Notice:
+    """What a stage has to say to a person: one per kind, with how often it happened."""
+
+    level: Level
+    kind: str
+    text: str
+    count: int
+    first_stamp_ns: int
+
+
+def length(block: tuple) -> int:
+    """Return the number of samples in a block."""
+    first = block[0]
+    return length(first) if isinstance(first, tuple) else len(first)
+
+
+def part(block: Block, start: int, stop: int | None = None) -> Block:
+    """Return the samples start:stop of a block."""
+    columns = (part(c, start, stop) if isinstance(c, tuple) else c[start:stop] for c in block)
+    return type(block)(*columns)
+
+
+def joined(blocks: list[Block]) -> Block:
+    """Return the blocks, one after the other, as one block."""
+    columns = zip(*blocks, strict=True)
+    return type(blocks[0])(
+        *(joined(list(c)) if isinstance(c[0], tuple) else np.concatenate(c) for c in columns)
+    )
