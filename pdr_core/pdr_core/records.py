@@ -81,6 +81,23 @@ class StepEvent:
         return min(np.pi, float(np.sqrt(variance_m2)) / max(self.length_m, 1e-6))
 
 
+class TruthKind(Enum):
+    """What is known of where the foot really was."""
+
+    POSITION = "position"  # at many stamps
+    STRIDES = "strides"  # at the end of every stance, without stamps; the first row is the start
+    CLOSED_LOOP = "closed_loop"  # only that the walk ends where it began
+
+
+@dataclass(frozen=True)
+class Truth:
+    """Where the foot really was, in any frame whose z points up."""
+
+    kind: TruthKind
+    stamp_ns: Stamps  # (n,) for POSITION, else (0,)
+    position_m: Floats  # (n, 3) for POSITION; (strides + 1, 2) for STRIDES; else (0, 3)
+
+
 class Level(Enum):
     """How bad a notice is; the values are those of diagnostic_msgs/DiagnosticStatus."""
 
