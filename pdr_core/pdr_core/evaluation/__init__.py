@@ -1,0 +1,1 @@
+"""Judging a track: alignment, metrics with units, result, pictures, report."""

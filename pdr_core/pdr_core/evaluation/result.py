@@ -1,0 +1,135 @@
+"""What a run gave, for a machine (JSON) and for a person (sentences)."""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pdr_core.evaluation.score import TruthScore
+from pdr_core.evaluation.words import counted, duration, metres, share
+from pdr_core.records import Floats, Level, Notice, TruthKind
+
+LEVELS = {Level.OK: "note", Level.WARN: "warning", Level.ERROR: "error"}  # as a person says it
+
+
+@dataclass(frozen=True)
+class Result:
+    """One sensor's run, with the configuration and the version that made it."""
+
+    recording: str
+    format: str
+    samples: int
+    duration_s: float
+    pipeline: str
+    strides: int  # the number of steps
+    distance_m: float  # the sum of the horizontal stride lengths
+    end_position_m: Floats  # (3,)
+    closure_2d_m: float
+    closure_3d_m: float
+    seconds: float  # that the estimation alone took
+    notices: Sequence[Notice]
+    config: Mapping[str, Any]
+    truth: TruthScore | None
+    version: str
+    commit: str
+
+    @property
+    def rate_hz(self) -> float:
+        """Mean sample rate; NaN of fewer than two samples."""
+        return (self.samples - 1) / self.duration_s if self.duration_s > 0.0 else math.nan
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the result as strict JSON knows it: plain types, None for NaN and infinity."""
+        names = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "strides", "distance_m"]
+        names += ["end_position_m", "closure_2d_m", "closure_3d_m", "seconds"]
+        content = {name: getattr(self, name) for name in names}
+        content["notices"] = [_notice(notice) for notice in self.notices]
+        content["config"] = self.config
+        content["truth"] = _truth(self.truth) if self.truth else None
+        return _plain(content | {"version": self.version, "commit": self.commit})
+
+    def to_json(self) -> str:
+        """Return the result as JSON text. Raise TypeError if the configuration holds something JSON cannot."""
+        return _text(self.to_mapping())
+
+
+@dataclass(frozen=True)
+class SensorsResult:
+    """The results of a recording with several inertial sensors."""
+
+    recording: str
+    format: str
+    sensors: Mapping[str, Result]
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the results as strict JSON knows them."""
+        sensors = {name: result.to_mapping() for name, result in self.sensors.items()}
+        return {"recording": self.recording, "format": self.format, "sensors": sensors}
+
+    def to_json(self) -> str:
+        """Return the results as JSON text. Raise TypeError if a configuration holds something JSON cannot."""
+        return _text(self.to_mapping())
+
+
+def in_words(result: Result | SensorsResult) -> str:
+    """Return two to four plain sentences; one line for each of several sensors."""
+    if isinstance(result, SensorsResult):
+        return "\n".join(f"{name}: {in_words(one)}" for name, one in result.sensors.items())
+    walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, 'stride')}"
+    sentences = [f"{walked} within {duration(result.duration_s)}.", *_error(result), *_notices(result.notices)]
+    return " ".join(sentences)
+
+
+def _error(result: Result) -> list[str]:
+    """Return one or two sentences on how far off the track is, as far as anybody knows."""
+    truth, closure = result.truth, metres(result.closure_2d_m)
+    if truth is None:
+        return [f"The estimate ends {closure} from where it began; the true path is not known."]
+    at_end = f"{metres(truth.end_error_m)} ({share(truth.end_error_percent)} of the distance)"
+    if truth.kind is TruthKind.CLOSED_LOOP:
+        return [f"The walk ended where it began, so the estimate is {at_end} off at the end."]
+    if not math.isfinite(truth.ate2_m):
+        return ["The track could not be compared with the true path."]
+    sentences = [f"It was on average {metres(truth.ate2_m)} off the true path, and {at_end} off at the end."]
+    if truth.kind is TruthKind.STRIDES and truth.stride_count_true != result.strides:
+        sentences.append(f"In truth there were {counted(truth.stride_count_true, 'stride')}.")
+    return sentences
+
+
+def _notices(notices: Sequence[Notice]) -> list[str]:
+    """Return one sentence on the worst notice that is not a mere note, and how many more there are."""
+    bad = sorted((n for n in notices if n.level is not Level.OK), key=lambda n: n.level.value, reverse=True)
+    if not bad:
+        return []
+    times = f" ({bad[0].count} times)" if bad[0].count > 1 else ""
+    more = f"; {counted(len(bad) - 1, 'more warning')}" if len(bad) > 1 else ""
+    return [f"{LEVELS[bad[0].level].capitalize()}: {bad[0].text.rstrip('.')}{times}{more}."]
+
+
+def _notice(notice: Notice) -> dict[str, Any]:
+    return {"level": notice.level.name, "kind": notice.kind, "text": notice.text, "count": notice.count}
+
+
+def _truth(score: TruthScore) -> dict[str, Any]:
+    names = ["ate2_m", "ate3_m", "end_error_percent"]
+    if score.kind is TruthKind.STRIDES:
+        names += ["stride_count_true", "stride_ate2_m"]
+    return {"kind": score.kind.value} | {name: getattr(score, name) for name in names}
+
+
+def _plain(value: Any) -> Any:
+    """Return the value in plain types, None for a float that JSON cannot say."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if isinstance(value, (np.ndarray, np.generic)):
+        return _plain(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _text(content: dict[str, Any]) -> str:
+    return json.dumps(content, indent=2, allow_nan=False, ensure_ascii=False)
