@@ -1,0 +1,34 @@
+"""The first moments of the filter: the foot rests at the origin and gravity gives its attitude."""
+
+import numpy as np
+
+from pdr_core.eskf.levelling import levelled
+from pdr_core.eskf.settings import Settings
+from pdr_core.eskf.state import FilterState
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import norm
+from pdr_core.records import Floats
+
+PLAUSIBLE_GRAVITY = 0.03  # a rest whose specific force differs by more is none, or the sensor is not calibrated
+
+
+@compiled
+def align(stamp_ns: int, force_mps2: Floats, s: Settings, state: FilterState) -> None:
+    """Take one sample into the mean specific force and level the foot by it."""
+    a = state.alignment
+    if a.start_ns[0] < 0:
+        a.start_ns[0] = stamp_ns
+        begin(s, state)
+    a.force_sum[:] += force_mps2
+    a.count[0] += 1
+    mean = a.force_sum / a.count[0]
+    state.nominal.quat_xyzw[:] = levelled(mean, s.initial_yaw_rad)
+    plausible = abs(norm(mean) / s.gravity_mps2 - 1.0) < PLAUSIBLE_GRAVITY
+    state.gravity_mps2[0] = norm(mean) if s.gravity_from_rest and plausible else s.gravity_mps2
+    a.running[0] = stamp_ns - a.start_ns[0] < s.alignment_ns
+
+
+@compiled
+def begin(s: Settings, state: FilterState) -> None:
+    """Set the covariance of the start."""
+    state.P[:] = np.diag(s.initial_sd**2)

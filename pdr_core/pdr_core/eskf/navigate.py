@@ -1,0 +1,102 @@
+"""The filter's loop: align, propagate, update, one sample after the other. The only text of it, live and offline."""
+
+import numpy as np
+
+from pdr_core.eskf.align import align
+from pdr_core.eskf.error_state import ATTITUDE, POSITION, VELOCITY
+from pdr_core.eskf.process import gap_noise, gap_transition, noise, transition
+from pdr_core.eskf.settings import Settings
+from pdr_core.eskf.state import FilterState
+from pdr_core.eskf.step_events import stance_is_over, stand
+from pdr_core.eskf.updates import zero_rate, zero_velocity
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.kalman import predict
+from pdr_core.maths.vector import product
+from pdr_core.records import Floats, NavBlock, StanceBlock
+from pdr_core.strapdown.mechanisation import advance
+
+
+@compiled
+def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
+    """Take sample i of the block into the estimate."""
+    stamp_ns = block.imu.stamp_ns[i]
+    if state.alignment.running[0]:
+        align(stamp_ns, block.imu.accel_mps2[i], s, state)
+    else:
+        propagate(block, i, s, state)
+        if block.rest_sd_radps[i] > 0.0:
+            zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
+        if block.stance[i] and zero_velocity(stamp_ns, s, state):
+            stand(stamp_ns, state)
+    state.last_ns[0] = stamp_ns
+    state.last_force_mps2[:] = block.imu.accel_mps2[i]
+    state.last_rate_radps[:] = block.imu.gyro_radps[i]
+    state.counts.samples[0] += 1
+
+
+@compiled
+def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
+    """Move estimate and covariance from the last sample to sample i."""
+    dt_ns = block.imu.stamp_ns[i] - state.last_ns[0]
+    dt_s = dt_ns * 1e-9
+    if dt_ns <= 0 or dt_ns > s.gap_ns or block.imu.gyro_sd_radps[i] < 0.0:
+        coast(dt_s if dt_ns > 0 else 1.0, s, state)
+        return
+    n = state.nominal
+    force_before = state.last_force_mps2 - n.accel_bias_mps2
+    force_after = block.imu.accel_mps2[i] - n.accel_bias_mps2
+    rate = 0.5 * (state.last_rate_radps + block.imu.gyro_radps[i]) - n.gyro_bias_radps
+    R_before, R_after = advance(
+        n.position_m, n.velocity_mps, n.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2[0]
+    )
+    decay = np.exp(-dt_s / s.process.bias_correlation_s)
+    n.accel_bias_mps2[:] *= decay
+    n.gyro_bias_radps[:] *= decay
+    F = transition(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
+    grow(F, noise(block.imu.accel_sd_mps2[i], block.imu.gyro_sd_radps[i], dt_s, s.process), state)
+
+
+@compiled
+def coast(dt_s: float, s: Settings, state: FilterState) -> None:
+    """Cross a gap: hold the position, forget the velocity, trust everything less."""
+    state.nominal.velocity_mps[:] = 0.0
+    grow(gap_transition(), gap_noise(dt_s, s.process), state)
+    state.counts.gaps[0] += 1
+
+
+@compiled
+def grow(F: Floats, q: Floats, state: FilterState) -> None:
+    """Propagate the covariance and its covariance with the ends of the last stances."""
+    predict(state.P, F, q)
+    state.ends.cross[:] = product(F, state.ends.cross)
+
+
+@compiled
+def write(out: NavBlock, i: int, state: FilterState) -> None:
+    """Write the estimate as sample i of the output."""
+    n, P = state.nominal, state.P
+    p, v, a = slice(POSITION, POSITION + 3), slice(VELOCITY, VELOCITY + 3), slice(ATTITUDE, ATTITUDE + 3)
+    out.stamp_ns[i] = state.last_ns[0]
+    out.position_m[i] = n.position_m
+    out.quat_xyzw[i] = n.quat_xyzw
+    out.velocity_mps[i] = n.velocity_mps
+    out.rate_radps[i] = state.last_rate_radps - n.gyro_bias_radps
+    out.pose_covariance[i, :3, :3] = P[p, p]
+    out.pose_covariance[i, :3, 3:] = P[p, a]
+    out.pose_covariance[i, 3:, :3] = P[a, p]
+    out.pose_covariance[i, 3:, 3:] = P[a, a]
+    out.velocity_covariance[i] = P[v, v]
+
+
+@compiled
+def navigate(block: StanceBlock, start: int, s: Settings, state: FilterState, out: NavBlock) -> tuple[int, bool]:
+    """Take samples from `start` on, until one shows that a stance is over or there are no more.
+
+    Returns the index of the next sample to take, and whether a stance is over.
+    """
+    for i in range(start, block.imu.stamp_ns.shape[0]):
+        sample_step(block, i, s, state)
+        write(out, i, state)
+        if stance_is_over(state.last_ns[0], s.merge_ns, state.ends):
+            return i + 1, True
+    return block.imu.stamp_ns.shape[0], False

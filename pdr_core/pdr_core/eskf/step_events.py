@@ -1,0 +1,61 @@
+"""Steps: from the end of one stance to the end of the next, with the covariance of the displacement.
+
+A stance goes on while the zero-velocity updates are accepted; interruptions shorter than the merge time belong to it.
+"""
+
+import numpy as np
+
+from pdr_core.eskf.error_state import ATTITUDE, POSITION
+from pdr_core.eskf.state import Ends, FilterState
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.quaternion import yaw_rad
+from pdr_core.records import StepEvent
+
+
+@compiled
+def stand(stamp_ns: int, state: FilterState) -> None:
+    """Note that the stance lasts until now."""
+    e, P = state.ends, state.P
+    p = slice(POSITION, POSITION + 3)
+    e.stamp_ns[1] = stamp_ns
+    e.position_m[1] = state.nominal.position_m
+    e.covariance[1] = P[p, p]
+    e.cross[:, 3:] = P[:, p]
+    e.displacement_covariance[:] = P[p, p] + e.covariance[0] - e.cross[p, :3] - e.cross[p, :3].T
+    e.yaw_rad[1] = yaw_rad(state.nominal.quat_xyzw)
+    e.yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
+
+
+@compiled
+def stance_is_over(stamp_ns: int, merge_ns: int, ends: Ends) -> bool:
+    """Return whether the stance noted last has been over for longer than the merge time."""
+    return ends.stamp_ns[1] >= 0 and abs(stamp_ns - ends.stamp_ns[1]) > merge_ns
+
+
+def step_taken(ends: Ends) -> StepEvent:
+    """Return the step to the end of the stance noted last, from which the next one begins.
+
+    The first stance of all has no step before it: its event has index 0 and no displacement.
+    """
+    first = ends.stamp_ns[0] < 0
+    step = StepEvent(
+        index=int(ends.index[0]),
+        start_ns=int(ends.stamp_ns[1 if first else 0]),
+        stamp_ns=int(ends.stamp_ns[1]),
+        position_m=ends.position_m[1].copy(),
+        displacement_m=np.zeros(3) if first else ends.position_m[1] - ends.position_m[0],
+        displacement_covariance_m2=np.zeros((3, 3)) if first else ends.displacement_covariance.copy(),
+        yaw_rad=float(ends.yaw_rad[1]),
+        yaw_sd_rad=float(ends.yaw_sd_rad[1]),
+    )
+    begin_next(ends)
+    return step
+
+
+def begin_next(ends: Ends) -> None:
+    """Make the end of the stance noted last the one from which the next step begins."""
+    ends.index[0] += 1
+    ends.cross[:, :3] = ends.cross[:, 3:]
+    for column in (ends.stamp_ns, ends.position_m, ends.covariance, ends.yaw_rad, ends.yaw_sd_rad):
+        column[0] = column[1]
+    ends.stamp_ns[1] = -1

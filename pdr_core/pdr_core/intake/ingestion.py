@@ -1,0 +1,100 @@
+"""The intake of one sensor: raw samples in, trustworthy SI samples in the foot's axes out."""
+
+import numpy as np
+
+from pdr_core.conventions import NANOSECONDS, STANDARD_GRAVITY_MPS2
+from pdr_core.intake.plausibility import Plausibility
+from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
+from pdr_core.maths import quaternion
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import rotated
+from pdr_core.notices import Tally
+from pdr_core.params import IntakeParams
+from pdr_core.records import Flags, Floats, ImuBlock, Level, Notice, Stamps
+
+ACCEL_UNITS = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2}
+GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
+
+
+class Ingestion:
+    """Guards the stream, converts units, judges saturation and turns the sensor's axes into the foot's."""
+
+    def __init__(self, params: IntakeParams) -> None:
+        self._params = params
+        self._limits = GuardLimits(round(params.gap_s * NANOSECONDS), round(params.restart_s * NANOSECONDS))
+        self._guard = fresh_state()
+        self._plausibility = Plausibility()
+        self._tally = Tally()
+        self._R_foot_from_sensor = quaternion.matrix(
+            quaternion.from_euler(params.mounting_roll_rad, params.mounting_pitch_rad, params.mounting_yaw_rad)
+        )
+
+    def run(self, raw: ImuBlock) -> ImuBlock:
+        """Return the samples of `raw` that can be used, in SI units and foot axes, with their noise."""
+        good, interval_s = self._guarded(raw)
+        si = self._in_si_units(good)
+        self._plausibility.watch(si, self._tally)
+        noisy = self._with_noise(si, interval_s)
+        return self._in_foot_axes(noisy)
+
+    @property
+    def notices(self) -> list[Notice]:
+        """What was wrong with the samples so far."""
+        return self._tally.notices
+
+    def _guarded(self, raw: ImuBlock) -> tuple[ImuBlock, Floats]:
+        before_ns = self._guard.last_ns[0]
+        faults = admitted(raw, self._limits, self._guard)
+        for fault, (kind, level, text) in FAULTS.items():
+            self._tally.add_flagged(kind, level, text, faults == fault, raw.stamp_ns)
+        passes = (faults == Fault.NONE) | (faults == Fault.GAP) | (faults == Fault.RESTART)
+        good = ImuBlock(*(column[passes] for column in raw))
+        return good, intervals_s(good.stamp_ns, before_ns, self._params.gap_s)
+
+    def _in_si_units(self, block: ImuBlock) -> ImuBlock:
+        return block._replace(
+            gyro_radps=block.gyro_radps * GYRO_UNITS[self._params.gyro_unit],
+            accel_mps2=block.accel_mps2 * ACCEL_UNITS[self._params.accel_unit],
+        )
+
+    def _with_noise(self, block: ImuBlock, interval_s: Floats) -> ImuBlock:
+        p = self._params
+        gyro_full = saturated(block.gyro_radps, p.gyro_range_radps)
+        accel_full = saturated(block.accel_mps2, p.accel_range_mps2)
+        gyro_off = block.gyro_sd_radps < 0.0
+        self._note("gyro_saturated", "the gyro saturates: choose a larger range", gyro_full, block.stamp_ns)
+        self._note("accel_saturated", "the accelerometer saturates: choose a larger range", accel_full, block.stamp_ns)
+        self._note("gyro_off", "the gyro is off: the track is held until it is on again", gyro_off, block.stamp_ns)
+        gyro_sd = np.hypot(p.gyro_noise_density / np.sqrt(interval_s), gyro_full * p.saturated_gyro_sd_radps)
+        accel_sd = np.hypot(p.accel_noise_density / np.sqrt(interval_s), accel_full * p.saturated_accel_sd_mps2)
+        return block._replace(gyro_sd_radps=np.where(gyro_off, -1.0, gyro_sd), accel_sd_mps2=accel_sd)
+
+    def _note(self, kind: str, text: str, flags: Flags, stamps_ns: Stamps) -> None:
+        self._tally.add_flagged(kind, Level.WARN, text, flags, stamps_ns)
+
+    def _in_foot_axes(self, block: ImuBlock) -> ImuBlock:
+        return block._replace(
+            gyro_radps=each_rotated(self._R_foot_from_sensor, block.gyro_radps),
+            accel_mps2=each_rotated(self._R_foot_from_sensor, block.accel_mps2),
+        )
+
+
+def intervals_s(stamps_ns: Stamps, before_ns: int, longest_s: float) -> Floats:
+    """Return the time [s] from each sample's predecessor, (n,), bounded by a gap's length, which the first one gets."""
+    first_ns = before_ns if before_ns >= 0 else -(10**18)
+    interval_s = np.diff(stamps_ns, prepend=np.int64(first_ns)) / NANOSECONDS
+    return np.where(interval_s > 0.0, np.minimum(interval_s, longest_s), longest_s)
+
+
+def saturated(values: Floats, full_scale: float) -> Flags:
+    """Return which samples (n, 3) have an axis within 0.5 % of the sensor's range, (n,)."""
+    return np.abs(values).max(axis=1, initial=0.0) >= 0.995 * full_scale
+
+
+@compiled
+def each_rotated(R: Floats, vectors: Floats) -> Floats:
+    """Return R v for every row v of (n, 3); row by row, so that one sample gives the same bits as many."""
+    out = np.empty_like(vectors)
+    for i in range(vectors.shape[0]):
+        out[i] = rotated(R, vectors[i])
+    return out

@@ -1,0 +1,72 @@
+"""Which samples of a live or recorded stream may pass, and what is wrong with the others."""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdr_core.maths.compiled import compiled
+from pdr_core.records import ImuBlock, Level, Stamps
+
+
+class Fault(IntEnum):
+    """What can be wrong with a sample."""
+
+    NONE = 0
+    DUPLICATE = 1
+    LATE = 2
+    NOT_FINITE = 3
+    RESTART = 4
+    GAP = 5
+
+
+FAULTS = {
+    Fault.DUPLICATE: ("duplicate_stamp", Level.WARN, "samples repeat the stamp before them: left out"),
+    Fault.LATE: ("late_stamp", Level.WARN, "samples come after younger ones: left out"),
+    Fault.NOT_FINITE: ("not_finite", Level.WARN, "samples hold NaN or infinity: left out"),
+    Fault.RESTART: ("clock_jumped_back", Level.WARN, "the stamps jump back: the track goes on from where it was"),
+    Fault.GAP: ("gap", Level.WARN, "samples are missing: the position is uncertain after the gap"),
+}
+
+
+class GuardLimits(NamedTuple):
+    """The numbers the guard works with."""
+
+    gap_ns: int
+    restart_ns: int
+
+
+class GuardState(NamedTuple):
+    """The guard's memory."""
+
+    last_ns: Stamps  # (1,) stamp of the last sample that passed; -1: none yet
+
+
+def fresh_state() -> GuardState:
+    """Return the memory of a guard that has seen nothing."""
+    return GuardState(np.full(1, -1))
+
+
+@compiled
+def admitted(block: ImuBlock, limits: GuardLimits, state: GuardState) -> NDArray[np.int64]:
+    """Return the Fault of each sample, (n,). NONE, GAP and RESTART pass, the others must not be used."""
+    faults = np.zeros(block.stamp_ns.shape[0], np.int64)
+    for i in range(block.stamp_ns.shape[0]):
+        step_ns = block.stamp_ns[i] - state.last_ns[0]
+        if not (np.all(np.isfinite(block.gyro_radps[i])) and np.all(np.isfinite(block.accel_mps2[i]))):
+            faults[i] = Fault.NOT_FINITE
+            continue
+        if state.last_ns[0] >= 0:
+            if step_ns == 0:
+                faults[i] = Fault.DUPLICATE
+                continue
+            if -limits.restart_ns <= step_ns < 0:
+                faults[i] = Fault.LATE
+                continue
+            if step_ns < 0:
+                faults[i] = Fault.RESTART
+            elif step_ns > limits.gap_ns:
+                faults[i] = Fault.GAP
+        state.last_ns[0] = block.stamp_ns[i]
+    return faults

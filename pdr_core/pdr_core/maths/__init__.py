@@ -1,0 +1,1 @@
+"""Compiled mathematics that any stage may use."""

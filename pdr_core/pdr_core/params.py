@@ -1,0 +1,148 @@
+"""Every parameter of the suite: one class per stage, one field per parameter.
+
+YAML files, ROS declarations and the tables of the documentation are generated from here (see `parameter.py`).
+"""
+
+from dataclasses import dataclass
+
+from pdr_core.parameter import parameter
+
+
+@dataclass(frozen=True)
+class IntakeParams:
+    """What is known of the sensor: its units, mounting, range, noise and stream."""
+
+    accel_unit: str = parameter("m/s^2", "unit of the incoming acceleration", choices=("m/s^2", "g"))
+    gyro_unit: str = parameter("rad/s", "unit of the incoming angular rate", choices=("rad/s", "deg/s"))
+    mounting_roll_rad: float = parameter(
+        0.0, "roll of the sensor on the foot, fixed axes", unit="rad", bounds=(-3.15, 3.15)
+    )
+    mounting_pitch_rad: float = parameter(0.0, "pitch of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
+    mounting_yaw_rad: float = parameter(0.0, "yaw of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
+    gyro_range_radps: float = parameter(
+        34.9, "angular rate at which the gyro saturates", unit="rad/s", bounds=(1.0, 200.0), source="2000 deg/s"
+    )
+    accel_range_mps2: float = parameter(
+        156.9, "specific force at which the accelerometer saturates", unit="m/s^2", bounds=(10.0, 5000.0), source="16 g"
+    )
+    gyro_noise_density: float = parameter(
+        0.001, "noise density of the gyro", unit="rad/s/sqrt(Hz)", bounds=(0.0, 1.0), source="RESEARCH A.6"
+    )
+    accel_noise_density: float = parameter(
+        0.015, "noise density of the accelerometer", unit="m/s^2/sqrt(Hz)", bounds=(0.0, 10.0), source="RESEARCH A.6"
+    )
+    saturated_gyro_sd_radps: float = parameter(
+        1.0, "what a saturated gyro may be off by", unit="rad/s", bounds=(0.0, 50.0)
+    )
+    saturated_accel_sd_mps2: float = parameter(
+        20.0, "what a saturated accelerometer may be off by", unit="m/s^2", bounds=(0.0, 500.0)
+    )
+    gap_s: float = parameter(0.1, "a longer time between two samples is a gap", unit="s", bounds=(0.002, 10.0))
+    restart_s: float = parameter(
+        1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
+    )
+
+
+@dataclass(frozen=True)
+class PlaceParams:
+    """Where on Earth the walk takes place: it gives gravity."""
+
+    latitude_deg: float = parameter(45.0, "latitude", unit="deg", bounds=(-90.0, 90.0))
+    height_m: float = parameter(0.0, "height above the ellipsoid", unit="m", bounds=(-500.0, 9000.0))
+
+
+@dataclass(frozen=True)
+class StanceParams:
+    """Stance detection: GLRT, time threshold, gait classification, soft rest test."""
+
+    window_s: float = parameter(
+        0.035, "length of the centred window of the GLRT", unit="s", bounds=(0.0, 1.0), source="Gui eq. 8, W"
+    )
+    accel_sd_mps2: float = parameter(
+        0.1, "accelerometer noise in the GLRT", unit="m/s^2", bounds=(1e-4, 10.0), source="Gui eq. 8, sigma_f"
+    )
+    gyro_sd_radps: float = parameter(
+        0.017, "gyro noise in the GLRT", unit="rad/s", bounds=(1e-5, 1.0), source="Gui eq. 8, sigma_omega"
+    )
+    threshold: float = parameter(
+        3000.0, "a foot stands where the statistic is at most this", bounds=(1e-3, 1e9), source="Gui section 3, T_d"
+    )
+    toe_off_ratio: float = parameter(
+        4.0, "a toe-off is a statistic over this many thresholds", bounds=(1.0, 1e6), source="Gui section 3"
+    )
+    stance_min_s: float = parameter(
+        0.05, "time threshold: a stance lasts at least so long", unit="s", bounds=(0.0, 1.0), source="Gui section 3"
+    )
+    dip_max_s: float = parameter(
+        0.12, "what begins sooner after toe-off than swing_min_s must last longer than this", unit="s", bounds=(0.0, 1.0),
+        source="Gui figure 3",
+    )
+    swing_min_s: float = parameter(
+        0.25, "shortest time from toe-off to heel strike", unit="s", bounds=(0.0, 2.0), source="Gui section 3"
+    )
+    rest_moving_radps: float = parameter(
+        0.5, "a mean rate over this is a moving foot", unit="rad/s", bounds=(0.01, 10.0), source="RESEARCH B.2"
+    )
+    rest_smoothing_s: float = parameter(0.05, "time over which that mean is taken", unit="s", bounds=(0.0, 1.0))
+    rest_guard_s: float = parameter(
+        0.1, "time before and after movement that is left out of a rest", unit="s", bounds=(0.0, 2.0)
+    )
+    rest_shortest_s: float = parameter(0.4, "shortest window of the first rest", unit="s", bounds=(0.05, 10.0))
+    rest_longest_s: float = parameter(3.0, "longest window of a rest", unit="s", bounds=(0.1, 60.0))
+    rest_later_s: float = parameter(
+        2.0, "shortest window of a later rest: longer than any stance of a walk", unit="s", bounds=(0.1, 60.0)
+    )
+    rest_floor_radps: float = parameter(
+        8.7e-4, "a rest never tells the gyro bias better than this", unit="rad/s", bounds=(0.0, 1.0), source="0.05 deg/s"
+    )
+    rest_turn_rad: float = parameter(
+        5.2e-4, "a resting foot may turn steadily by this", unit="rad", bounds=(0.0, 1.0), source="0.03 deg"
+    )
+
+
+@dataclass(frozen=True)
+class FilterParams:
+    """The error-state Kalman filter."""
+
+    alignment_s: float = parameter(
+        0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"
+    )
+    initial_yaw_rad: float = parameter(0.0, "yaw at the start", unit="rad", bounds=(-3.15, 3.15))
+    gravity_source: str = parameter(
+        "rest", "gravity from the specific force of the first rest or from the place", choices=("rest", "place")
+    )
+    zero_velocity_sd_mps: float = parameter(
+        0.03, "how still a standing foot is", unit="m/s", bounds=(1e-5, 10.0), source="Gui eq. 22, Zhou R_v"
+    )
+    gate: float = parameter(
+        16.3, "normalised innovation squared that a zero-velocity update may have", bounds=(1.0, 1e9),
+        source="chi-square, 3 degrees of freedom, 99.9 %",
+    )
+    gate_release_s: float = parameter(
+        0.1, "rejections that go on for longer are taken after all, with less weight", unit="s", bounds=(0.0, 10.0)
+    )
+    step_merge_s: float = parameter(
+        0.3, "interruptions of a stance up to this belong to it", unit="s", bounds=(0.0, 5.0), source="RESEARCH A.8"
+    )
+    gap_s: float = parameter(
+        0.1, "a longer time between two samples is not integrated", unit="s", bounds=(0.002, 10.0)
+    )
+    gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
+    gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))
+    accel_bias_walk: float = parameter(
+        1e-5, "random walk of the accelerometer bias", unit="m/s^2/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 16"
+    )
+    gyro_bias_walk: float = parameter(
+        1e-6, "random walk of the gyro bias", unit="rad/s/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 15"
+    )
+    bias_correlation_s: float = parameter(
+        3600.0, "correlation time of the biases, 1/beta", unit="s", bounds=(1.0, 1e9), source="Gui eq. 15-16"
+    )
+    initial_position_sd_m: float = parameter(0.001, "at the start", unit="m", bounds=(0.0, 1e3))
+    initial_velocity_sd_mps: float = parameter(0.01, "at the start", unit="m/s", bounds=(0.0, 10.0))
+    initial_tilt_sd_rad: float = parameter(0.03, "after levelling", unit="rad", bounds=(0.0, 3.15))
+    initial_yaw_sd_rad: float = parameter(0.001, "at the start", unit="rad", bounds=(0.0, 3.15))
+    initial_accel_bias_sd_mps2: float = parameter(0.02, "what the sensor may bring", unit="m/s^2", bounds=(0.0, 10.0))
+    initial_gyro_bias_sd_radps: float = parameter(
+        0.0035, "what the sensor may bring: 0.2 deg/s", unit="rad/s", bounds=(0.0, 1.0), source="RESEARCH B.2"
+    )
