@@ -1,0 +1,108 @@
+"""The report: one HTML file that needs nothing else, neither a network nor a folder beside it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pdr_core.evaluation import plots
+from pdr_core.evaluation.plan import plan
+from pdr_core.evaluation.result import LEVELS, Result, in_words
+from pdr_core.evaluation.score import TruthView
+from pdr_core.evaluation.trace import Trace
+from pdr_core.evaluation.words import counted, duration, metres, share
+from pdr_core.records import StepEvent, TruthKind
+
+
+class Card(NamedTuple):
+    """One figure of the summary."""
+
+    value: str
+    label: str
+
+
+class Picture(NamedTuple):
+    """One figure with what it shows."""
+
+    name: str  # its id on the page
+    title: str
+    caption: str
+    json: str  # of plotly
+
+
+def write_report(
+    path: Path, result: Result, trace: Trace, steps: Sequence[StepEvent], truth_view: TruthView | None
+) -> None:
+    """Write the report of one sensor's run to a file. Raise OSError where it cannot be written."""
+    path.write_text(report(result, trace, steps, truth_view), encoding="utf-8")
+
+
+def report(result: Result, trace: Trace, steps: Sequence[StepEvent], truth_view: TruthView | None) -> str:
+    """Return the page as text."""
+    from jinja2 import Environment
+    from plotly.offline import get_plotlyjs
+
+    template = files("pdr_core.evaluation").joinpath("report.html.j2").read_text(encoding="utf-8")
+    pictures = list(_pictures(trace, steps, truth_view)) if len(trace.points.time_s) else []
+    return (
+        Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+        .from_string(template)
+        .render(
+            result=result,
+            words=in_words(result),
+            cards=_cards(result),
+            pictures=pictures,
+            notices=[(LEVELS[n.level], n.text, counted(n.count, "time")) for n in result.notices],
+            config=list(_rows(result.config)),
+            length_of_run=duration(result.duration_s),
+            plotly_js=get_plotlyjs(),
+        )
+    )
+
+
+def _cards(result: Result) -> list[Card]:
+    """Return the summary: what was walked, and how far off it is as far as anybody knows."""
+    cards = [Card(metres(result.distance_m), "walked"), Card(str(result.strides), "strides")]
+    cards.append(Card(duration(result.duration_s), "recorded"))
+    truth = result.truth
+    if truth and truth.kind is not TruthKind.CLOSED_LOOP:
+        cards.append(Card(metres(truth.ate2_m), "off on average (ATE2)"))
+    if truth:
+        cards.append(Card(metres(truth.end_error_m), f"off at the end: {share(truth.end_error_percent)} of the way"))
+    else:
+        cards.append(Card(metres(result.closure_2d_m), "from the start to the end"))
+    return cards
+
+
+def _pictures(trace: Trace, steps: Sequence[StepEvent], view: TruthView | None) -> Iterator[Picture]:
+    """Yield the figures from top to bottom."""
+    caption = "The track from above, each footfall a circle. An ellipse shows how uncertain the position is (1 σ)."
+    laid = " The truth is turned and moved onto the estimate, as for ATE2." if view else ""
+    yield Picture("plan", "Where the walk went", caption + laid, _json(plan(trace, steps, view)))
+    caption = "Below the threshold the foot counts as standing (shaded): only then is the speed known to be zero."
+    yield Picture("stance", "When the foot stood", caption, _json(plots.stance(trace)))
+    caption = "The height of the foot; the band shows how uncertain it is (1 σ)."
+    yield Picture("height", "How high the foot was", caption, _json(plots.height(trace, view)))
+    if view:
+        caption = "Distance to the truth after it was laid onto the whole track."
+        yield Picture("error", "How far off it was", caption, _json(plots.error(view)))
+    else:
+        caption = "No truth along the way: this is what the filter itself expects its error to be (1 σ)."
+        yield Picture("error", "How far off it may be", caption, _json(plots.deviation(trace)))
+    if steps:
+        caption = "Length and direction of each stride; 0° is the direction of x, left turns count up."
+        yield Picture("strides", "Stride by stride", caption, _json(plots.strides(steps)))
+
+
+def _json(figure: Any) -> str:
+    """Return a figure as JSON that is safe inside a script element."""
+    return figure.to_json().replace("<", "\\u003c")
+
+
+def _rows(config: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the configuration flat: dotted name and value."""
+    for name, value in config.items():
+        if isinstance(value, Mapping):
+            yield from _rows(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", str(value)

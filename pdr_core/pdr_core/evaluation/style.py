@@ -1,0 +1,76 @@
+"""One look for all figures: colours that colour-blind people can tell apart (Okabe and Ito 2008) on white."""
+
+import math
+from typing import TYPE_CHECKING
+
+from pdr_core.records import Floats
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
+BLUE = "#0072B2"  # the estimate
+ORANGE = "#D55E00"  # the truth
+GREEN = "#009E73"  # stance, height
+PURPLE = "#AA4499"  # the end
+INK = "#222222"
+PALE_BLUE = "rgba(0, 114, 178, 0.18)"
+PALE_GREEN = "rgba(0, 158, 115, 0.22)"
+GRID = "#E3E6E8"
+TIME = "Time since the start [s]"
+POINTS = 6_000  # of one line: more than a screen has columns
+
+
+def figure(x_title: str, y_title: str) -> "Figure":
+    """Return an empty figure with titled axes."""
+    from plotly.graph_objects import Figure
+
+    fig = Figure()
+    dress(fig)
+    fig.update_xaxes(title_text=x_title)
+    fig.update_yaxes(title_text=y_title)
+    return fig
+
+
+def dress(fig: "Figure") -> None:
+    """Give a figure the common look: a legend above, thin grid lines, room for the axes' titles."""
+    fig.update_layout(
+        template="none",
+        autosize=True,
+        font={"family": "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif", "size": 13, "color": INK},
+        margin={"l": 62, "r": 16, "t": 36, "b": 52},
+        legend={"orientation": "h", "x": 0, "y": 1.01, "xanchor": "left", "yanchor": "bottom"},
+        hovermode="x unified",
+        hoverlabel={"bgcolor": "white"},
+    )
+    axis = {"gridcolor": GRID, "zeroline": False, "linecolor": "#9AA0A4", "showline": True, "automargin": True}
+    fig.update_xaxes(**axis)
+    fig.update_yaxes(**axis)
+
+
+def line(
+    fig: "Figure",
+    name: str,
+    x: Floats,
+    y: Floats,
+    colour: str,
+    *,
+    unit: str = "m",
+    dash: str = "solid",
+    width: float = 2,
+) -> None:
+    """Add a line through points (n,), thinned to what a screen can show; what is not finite leaves a gap."""
+    every = slice(None, None, max(1, math.ceil(len(x) / POINTS)))
+    look = {"color": colour, "width": width, "dash": dash}
+    hover = f"%{{y:.3~f}} {unit}"
+    fig.add_scatter(x=listed(x[every]), y=listed(y[every]), name=name, mode="lines", line=look, hovertemplate=hover)
+
+
+def area(fig: "Figure", name: str, x: Floats, y: Floats, colour: str, **more: str) -> None:
+    """Add filled outlines, (n,), that NaN separates."""
+    look = {"mode": "lines", "line": {"width": 0}, "fill": "toself", "fillcolor": colour, "hoverinfo": "skip"}
+    fig.add_scatter(x=listed(x), y=listed(y), name=name, **look, **more)
+
+
+def listed(values: Floats) -> list[float | None]:
+    """Return values, (n,), as a short list: six digits each, None where not finite."""
+    return [float(f"{value:.6g}") if math.isfinite(value) else None for value in values.tolist()]
