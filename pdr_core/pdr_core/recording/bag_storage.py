@@ -1,0 +1,40 @@
+"""The files of a bag, by topic: through their index where it can be read, and as far as they go where it cannot."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+SUFFIXES = {".mcap": "mcap", ".db3": "sqlite3"}
+
+
+class Storage(NamedTuple):
+    """One file of a bag. `messages(topic)` yields CDR bytes, and raises anything where the file is damaged."""
+
+    path: Path
+    topics: dict[str, str]  # message type by topic
+    messages: Callable[[str], Iterator[bytes]]
+
+
+def open_storage(path: Path) -> Storage:
+    """Open a bag file, or a directory that must be read as a whole, whatever its state; nothing readable: no topics."""
+    from pdr_core.recording.mcap_salvage import salvaged_mcap
+    from pdr_core.recording.sqlite_salvage import salvaged_sqlite
+
+    try:
+        return _indexed(path)
+    except Exception:  # a damaged file makes rosbags raise anything
+        topics, messages = salvaged_mcap(path) if path.suffix == ".mcap" else salvaged_sqlite(path)
+        return Storage(path, topics, messages)
+
+
+def _indexed(path: Path) -> Storage:
+    from rosbags.rosbag2 import Reader
+
+    def messages(topic: str) -> Iterator[bytes]:
+        with Reader(path) as reader:
+            connections = [c for c in reader.connections if c.topic == topic]
+            if connections:  # rosbags takes none for all
+                yield from (cdr for _, _, cdr in reader.messages(connections))
+
+    with Reader(path) as reader:
+        return Storage(path, {c.topic: c.msgtype for c in reader.connections}, messages)

@@ -1,0 +1,80 @@
+"""Reads an MCAP file from its start to where it breaks off, without its summary."""
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+if TYPE_CHECKING:
+    from mcap.records import Chunk, McapRecord
+
+
+def salvaged_mcap(path: Path) -> tuple[dict[str, str], Callable[[str], Iterator[bytes]]]:
+    """Return the message types by topic, and what yields the CDR bytes of a topic and raises where the file breaks."""
+    from mcap.records import Channel, Schema
+
+    names: dict[int, str] = {}
+    topics: dict[str, str] = {}
+    with suppress(Exception):  # the damage is told when the messages are read
+        for record in _records(path):
+            if isinstance(record, Schema):
+                names[record.id] = record.name
+            elif isinstance(record, Channel):
+                topics[record.topic] = names.get(record.schema_id, "")
+    return topics, partial(_messages, path)
+
+
+def _messages(path: Path, topic: str) -> Iterator[bytes]:
+    from mcap.records import Channel, Message
+
+    channels = set()
+    for record in _records(path):
+        if isinstance(record, Channel) and record.topic == topic:
+            channels.add(record.id)
+        elif isinstance(record, Message) and record.channel_id in channels:
+            yield record.data
+
+
+def _records(path: Path) -> "Iterator[McapRecord]":
+    """Yield the records, those of chunks too; raises after the last one that is whole if the file is not."""
+    from mcap.records import Chunk
+    from mcap.stream_reader import StreamReader, breakup_chunk
+
+    with path.open("rb") as file:
+        end = 0
+        try:
+            for record in StreamReader(file, emit_chunks=True, record_size_limit=path.stat().st_size).records:
+                end = file.tell()
+                yield from breakup_chunk(record) if isinstance(record, Chunk) else (record,)
+        except Exception:
+            file.seek(end)
+            with suppress(Exception):
+                yield from _records_of_cut_chunk(file)
+            raise
+
+
+def _records_of_cut_chunk(file: BinaryIO) -> "Iterator[McapRecord]":
+    from mcap.data_stream import ReadDataStream
+    from mcap.opcode import Opcode
+    from mcap.records import Chunk
+    from mcap.stream_reader import StreamReader
+
+    opcode, _length = file.read(1), file.read(8)
+    if opcode == bytes([Opcode.CHUNK]):
+        chunk = Chunk.read(ReadDataStream(file))
+        yield from StreamReader(BytesIO(_unpacked(chunk)), skip_magic=True).records
+
+
+def _unpacked(chunk: "Chunk") -> bytes:
+    """Return what the data of a cut chunk decompress to, as far as they go."""
+    if chunk.compression == "zstd":
+        import zstandard
+
+        return zstandard.ZstdDecompressor().decompressobj().decompress(chunk.data)
+    if chunk.compression == "lz4":
+        from lz4.frame import LZ4FrameDecompressor  # type: ignore[import-untyped]
+
+        return LZ4FrameDecompressor().decompress(chunk.data)
+    return chunk.data

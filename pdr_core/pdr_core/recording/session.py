@@ -1,0 +1,47 @@
+"""What an opened recording is: sensors that can be read in pieces, and notices that grow while they are read."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from pdr_core.records import ImuBlock, Level, Notice, Truth
+
+DEFAULT_PIECE = 65536
+
+
+class RecordingError(Exception):
+    """A recording cannot be opened; the message says in one sentence what to do next."""
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """One inertial sensor of a recording, and what is known of where it really was."""
+
+    name: str
+    truth: Truth | None
+    read: Callable[[int], Iterator[ImuBlock]]
+
+    def pieces(self, max_samples: int = DEFAULT_PIECE) -> Iterator[ImuBlock]:
+        """Yield the samples in the order of the file, at most `max_samples` at a time; each call starts anew."""
+        return self.read(max_samples)
+
+
+@dataclass(frozen=True)
+class Session:
+    """An opened recording. `notices` grows while its sensors are read."""
+
+    name: str
+    path: Path
+    format: str
+    sensors: dict[str, Sensor]
+    notices: list[Notice] = field(default_factory=list)
+
+
+def put_warning(notices: list[Notice], kind: str, text: str, count: int, first_stamp_ns: int) -> None:
+    """Add a warning, or renew the one of the same kind and text: reading twice does not say it twice."""
+    notice = Notice(Level.WARN, kind, text, count, first_stamp_ns)
+    for i, other in enumerate(notices):
+        if (other.kind, other.text) == (kind, text):
+            notices[i] = notice
+            return
+    notices.append(notice)

@@ -1,0 +1,96 @@
+"""Opens text and .mat recordings: finds the column map that fits, and reads sensors and truth as it says."""
+
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from pdr_core.recording.column_map import ColumnMap, SensorMap
+from pdr_core.recording.column_map_yaml import column_map_from_file, known_maps
+from pdr_core.recording.session import RecordingError, Sensor, Session
+from pdr_core.recording.table import Clock, Table, positions
+from pdr_core.recording.table_truth import clock_of, load_truth, open_table
+from pdr_core.records import ImuBlock, Notice
+
+FOLDER_MAP = "pdr_columns.yaml"
+COLUMNS_SHOWN = 12
+HOW_TO_MAP = (
+    "say which is which in a file '{stem}.yaml' beside it, for example `time: {{column: t, unit: s}}` and `sensors: "
+    "{{imu: {{gyro: {{columns: [wx, wy, wz], unit: rad/s}}, accel: {{columns: [ax, ay, az], unit: m/s^2}}}}}}` "
+    "(docs/recordings.md has the rest)."
+)
+
+
+def open_table_session(path: Path, column_map: Path | None) -> Session:
+    """Open a text or .mat recording; RecordingError if no column map fits or it holds no samples."""
+    own = column_map or _map_beside(path)
+    if own:
+        chosen = column_map_from_file(own)
+        table = open_table(path, chosen.header_rows)
+        _check_fit(chosen, table, path, own)
+    else:
+        chosen, table = _known(path)
+    notices: list[Notice] = []
+    sensors = {name: _sensor(name, s, chosen, table, path, notices) for name, s in chosen.sensors.items()}
+    return Session(path.stem, path, chosen.name, sensors, notices)
+
+
+def _map_beside(path: Path) -> Path | None:
+    candidates = [path.with_suffix(".yaml"), path.with_name(FOLDER_MAP)]
+    return next((c for c in candidates if c.exists()), None)
+
+
+def _check_fit(chosen: ColumnMap, table: Table, path: Path, source: Path) -> None:
+    try:
+        positions(table, chosen.columns())
+    except LookupError as error:
+        raise RecordingError(
+            f"{path} does not fit the column map {source}: {error} of {_shown(table)}; correct the map."
+        ) from error
+
+
+def _known(path: Path) -> tuple[ColumnMap, Table]:
+    maps = known_maps()
+    tables = {rows: open_table(path, rows) for rows in sorted({m.header_rows for m in maps}, reverse=True)}
+    for known in maps:
+        if _fits(known.columns(), tables[known.header_rows]):
+            return known, tables[known.header_rows]
+    table = tables[1]
+    if any(_fits(_truth_columns(known), table) for known in maps):
+        raise RecordingError(f"{path} holds only the truth of a walk: open the samples beside it, {path.stem}.csv.")
+    raise RecordingError(
+        f"{path} is of no known format, its columns are {_shown(table)}: {HOW_TO_MAP.format(stem=path.stem)}"
+    )
+
+
+def _fits(patterns: list[str], table: Table) -> bool:
+    try:
+        return len(positions(table, patterns)) > 0
+    except LookupError:
+        return False
+
+
+def _truth_columns(known: ColumnMap) -> list[str]:
+    truths = [s.truth for s in known.sensors.values() if s.truth and s.truth.file]
+    return [c for truth in truths for point in truth.points for c in point.columns]
+
+
+def _shown(table: Table) -> str:
+    more = ", ..." if len(table.columns) > COLUMNS_SHOWN else ""
+    return ", ".join(f"'{c[:60]}'" for c in table.columns[:COLUMNS_SHOWN]) + more
+
+
+def _sensor(name: str, sensor: SensorMap, chosen: ColumnMap, table: Table, path: Path, notices: list[Notice]) -> Sensor:
+    truth = load_truth(sensor.truth, table, chosen.time, path, notices)
+    return Sensor(name, truth, partial(_blocks, table, clock_of(table, chosen.time), sensor, notices))
+
+
+def _blocks(
+    table: Table, clock: Clock, sensor: SensorMap, notices: list[Notice], max_samples: int
+) -> Iterator[ImuBlock]:
+    columns = positions(table, [*sensor.gyro.columns, *sensor.accel.columns])
+    scale = np.array([*sensor.gyro.scale, *sensor.accel.scale])
+    for rows in table.pieces(clock, columns, max_samples, notices):
+        values, unknown = rows.values * scale, np.zeros(len(rows.values))
+        yield ImuBlock(rows.stamp_ns, values[:, :3], values[:, 3:], unknown, unknown)
