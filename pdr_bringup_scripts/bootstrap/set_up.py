@@ -8,10 +8,16 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-from bootstrap import messages, ros, stamp, system_packages, venv
+from bootstrap import messages, python_packages, ros, stamp, system_packages
 from bootstrap.environment import clean_environment, launch_environment
 from bootstrap.layout import Layout
 from bootstrap.progress import Progress
+
+FIRST_IMPORTS = (
+    "numba, scipy.linalg, scipy.signal, scipy.spatial.transform, rosbags.highlevel, mcap.reader, "
+    "yaml, jinja2, plotly.graph_objects, typer, rich.console, rich.table, pytest, hypothesis, "
+    "rclpy.node, rclpy.experimental.events_executor, sensor_msgs.msg, nav_msgs.msg"
+)
 
 
 def set_up(layout: Layout, inherited: Mapping[str, str]) -> None:
@@ -31,17 +37,26 @@ def set_up(layout: Layout, inherited: Mapping[str, str]) -> None:
 
 def _make_environment(layout: Layout, inherited: Mapping[str, str], progress: Progress) -> None:
     """Make the environment with everything from elsewhere in it."""
-    venv.clear(layout)
+    python_packages.clear(layout)
     found = ros.find_sourced(inherited, layout)
     clean = clean_environment(inherited, layout)
-    system_packages.ensure(found.python if found else venv.base_python(), clean, progress)
+    python = found.python if found else python_packages.base_python()
+    system_packages.ensure(python, clean, progress)
     which = f"the one sourced from {found.prefix}" if found else "its wheels (none is sourced)"
     progress.say(f"making the Python environment; ROS 2 Jazzy: {which}")
     now = stamp.wanted(layout, inherited)
-    venv.create(layout, found, clean, progress)
+    python_packages.create(layout, found, clean, progress)
     progress.say("downloading and installing Python packages")
-    venv.install(layout, found, clean, progress)
+    python_packages.install(layout, found, clean, progress)
+    _try_imports(layout, launch_environment(inherited, layout, found is not None), progress)
     stamp.write_environment(layout, now, sourced=found is not None)
+
+
+def _try_imports(layout: Layout, environment: Mapping[str, str], progress: Progress) -> None:
+    """Import what is used first: proves that it loads, and compiles it for later starts."""
+    progress.say("trying what was installed")
+    command = [str(layout.python), "-c", f"import {FIRST_IMPORTS}"]
+    progress.run(command, environment, "the installed Python packages do not load")
 
 
 def _make_messages(layout: Layout, inherited: Mapping[str, str], progress: Progress) -> None:

@@ -27,11 +27,10 @@ def wanted(layout: Layout, environment: Mapping[str, str]) -> dict[str, str]:
     """Describe what the environment must be made from now."""
     prefix = sourced_prefix(environment, layout)
     fallback = not tf2_msgs.provided(environment if prefix else {}, layout)
-    requirements = [*layout.bootstrap.glob("*.in"), layout.bootstrap / "constraints.txt"]
     return {
         "path": str(layout.venv),
         "ros": prefix,
-        "requirements": digest(requirements),
+        "requirements": digest(layout.bootstrap.glob("requirements-*.txt")),
         "messages": digest(messages.source_files(layout), f"fallback: {fallback}"),
     }
 

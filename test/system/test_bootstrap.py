@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
-from bootstrap import stamp, system_packages, tf2_msgs, venv
+from bootstrap import python_packages, stamp, system_packages, tf2_msgs
 from bootstrap.environment import launch_environment
-from bootstrap.layout import Layout
+from bootstrap.layout import Layout, this_checkout
 from bootstrap.progress import Progress, SetupError
-from bootstrap.ros import sourced_prefix
+from bootstrap.ros import SourcedRos, sourced_prefix
 
 
 def _file(path: Path, text: str = "") -> Path:
@@ -24,8 +25,8 @@ def layout(tmp_path: Path) -> Layout:
     """A checkout whose environment looks finished."""
     made = Layout(tmp_path / "checkout")
     _file(made.messages / "msg" / "Step.msg", "float64 length\n")
-    _file(made.bootstrap / "constraints.txt", "numpy==2.2.6\nscipy==1.15.3\n")
-    _file(made.bootstrap / "requirements-pdr.in", "numpy\nscipy\n")
+    _file(made.bootstrap / "requirements-pdr.txt", "# ours\nnumpy==2.2.6\nscipy==1.15.3\n")
+    _file(made.bootstrap / "requirements-build.txt", "ninja==1.13.2\n")
     _file(made.python)
     _file(made.venv / "lib" / "python3.11" / "site-packages" / "numpy" / "__init__.py")
     _finish(made, {})
@@ -63,7 +64,7 @@ class TestStamp:
         assert stamp.judge(layout, {})[0] == stamp.MESSAGES
 
     def test_a_changed_requirement_makes_everything_anew(self, layout: Layout) -> None:
-        _file(layout.bootstrap / "requirements-pdr.in", "numpy\n")
+        _file(layout.bootstrap / "requirements-pdr.txt", "numpy==2.2.6\n")
         assert stamp.judge(layout, {}) == (stamp.EVERYTHING, stamp.REASONS["requirements"])
 
     def test_a_deleted_package_makes_everything_anew_and_is_named(self, layout: Layout) -> None:
@@ -118,8 +119,18 @@ class TestRos:
         assert sourced_prefix(environment, layout) == ""
 
     def test_numpy_stays_at_the_version_of_the_sourced_ros(self, layout: Layout) -> None:
-        lines = venv.constraints(layout, {"numpy": "1.26.4"}).splitlines()
-        assert lines == ["scipy==1.15.3", "numpy==1.26.4"]
+        ros = SourcedRos("/ros", "/usr/bin/python3", {"numpy": "1.26.4"})
+        lines = python_packages.requirements(layout, ros, {"PATH": ""}).splitlines()
+        assert lines == ["numpy==1.26.4", "scipy==1.15.3", "ninja==1.13.2"]
+
+    @pytest.mark.parametrize("kind", ["ros", "build", "pdr"])
+    def test_what_we_ask_for_is_in_the_full_list(self, kind: str) -> None:
+        folder = this_checkout().bootstrap
+        asked = (folder / f"requirements-{kind}.in").read_text(encoding="utf-8")
+        listed = (folder / f"requirements-{kind}.txt").read_text(encoding="utf-8").lower()
+        names = {re.sub(r"\[.*\]", "", line).lower() for line in asked.splitlines()}
+        missing = {name for name in names if name[0] != "#"} - set(listed.splitlines())
+        assert not missing
 
 
 class TestTf2Fallback:
@@ -150,7 +161,7 @@ class TestSystemPackages:
         monkeypatch.setattr(os, "geteuid", lambda: 1000)
         progress = Progress(layout.log, lock=-1)
         with pytest.raises(SetupError, match=r"sudo apt-get install .*g\+\+"):
-            system_packages.ensure(venv.base_python(), {"PATH": str(tmp_path)}, progress)
+            system_packages.ensure(python_packages.base_python(), {"PATH": str(tmp_path)}, progress)
 
     def test_a_c_compiler_alone_is_not_enough(self, tmp_path: Path) -> None:
         _file(tmp_path / "cc").chmod(0o755)

@@ -45,36 +45,36 @@ def install(
     layout: Layout, ros: SourcedRos | None, environment: Mapping[str, str], progress: Progress
 ) -> None:
     """Install the pinned packages and make our own importable from their sources."""
-    pins = layout.venv / "constraints.txt"
-    pins.write_text(constraints(layout, ros.kept if ros else {}), encoding="utf-8")
-    command = [str(layout.python), "-m", "pip", "install", "--no-input", "-c", str(pins)]
-    for name in _requirements(ros, environment):
-        command += ["-r", str(layout.bootstrap / name)]
+    listed = layout.venv / "requirements.txt"
+    listed.write_text(requirements(layout, ros, environment), encoding="utf-8")
+    options = ["--no-input", "--no-deps", "--no-compile", "-r", str(listed)]
+    command = [str(layout.python), "-m", "pip", "install", *options]
     failure = "pip could not install the Python packages; is the network there?"
     progress.run(command, {**environment, "PIP_USER": "0"}, failure)
     _point_at_sources(layout)
 
 
-def _requirements(ros: SourcedRos | None, environment: Mapping[str, str]) -> list[str]:
-    """Name the requirement files this environment needs."""
-    names = ["requirements-pdr.in"]
+def requirements(layout: Layout, ros: SourcedRos | None, environment: Mapping[str, str]) -> str:
+    """Give every package with its version; what a sourced ROS was built with keeps its own."""
+    kinds = ["pdr"]
     if not ros:
-        names.append("requirements-ros.in")
+        kinds.append("ros")
     if not ros or not _has_build_tools(environment):
-        names.append("requirements-build.in")
-    return names
+        kinds.append("build")
+    pins: dict[str, str] = {}
+    for kind in kinds:
+        text = (layout.bootstrap / f"requirements-{kind}.txt").read_text(encoding="utf-8")
+        for line in text.splitlines():
+            name, is_pin, version = line.partition("==")
+            if is_pin:
+                pins[name] = version
+    pins.update(ros.kept if ros else {})
+    return "".join(f"{name}=={version}\n" for name, version in pins.items())
 
 
 def _has_build_tools(environment: Mapping[str, str]) -> bool:
     """Tell whether the sourced ROS brings colcon and CMake along."""
     return all(shutil.which(tool, path=environment["PATH"]) for tool in ("colcon", "cmake", "make"))
-
-
-def constraints(layout: Layout, kept: Mapping[str, str]) -> str:
-    """Give our pins, with the versions that a sourced ROS needs in their place."""
-    text = (layout.bootstrap / "constraints.txt").read_text(encoding="utf-8")
-    lines = [line for line in text.splitlines() if line.split("==")[0].lower() not in kept]
-    return "\n".join([*lines, *(f"{name}=={version}" for name, version in kept.items())]) + "\n"
 
 
 def _point_at_sources(layout: Layout) -> None:
