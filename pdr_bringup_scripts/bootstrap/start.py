@@ -34,7 +34,10 @@ def _prepare(layout: Layout) -> None:
     if scope:
         from bootstrap.set_up import set_up
 
-        set_up(layout, os.environ)
+        try:
+            set_up(layout, os.environ)
+        except OSError as error:
+            raise SetupError(f"the set-up failed: {error} (details: {layout.log})") from error
 
 
 def _starts(layout: Layout) -> bool:
