@@ -1,16 +1,15 @@
 """Opens rosbag2 recordings: every sensor_msgs/Imu topic is a sensor, every ground_truth topic a truth."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from contextlib import suppress
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from pdr_core.recording.bag_messages import BagReader, imu_block, position_truth
+from pdr_core.recording.bag_messages import BagReader
 from pdr_core.recording.bag_storage import SUFFIXES, open_storage
 from pdr_core.recording.session import RecordingError, Sensor, Session, put_warning
-from pdr_core.records import ImuBlock, Notice, Truth
+from pdr_core.records import Notice, Truth
 
 IMU = "sensor_msgs/msg/Imu"
 POSES = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"}
@@ -27,7 +26,7 @@ def open_bag_session(path: Path) -> Session:
     if not imus:
         raise RecordingError(_nothing_inside(path, topics))
     truths = {t.removesuffix(TRUTH): t for t, msgtype in topics.items() if t.endswith(TRUTH) and msgtype in POSES}
-    sensors = {name: Sensor(name, _truth(bag, t, truths), partial(_blocks, bag, t)) for name, t in imus.items()}
+    sensors = {name: Sensor(name, _truth(bag, t, truths), partial(bag.imu_blocks, t)) for name, t in imus.items()}
     name = path.name if path.is_dir() else path.stem
     return Session(name, path, SUFFIXES.get(files[0].suffix, "rosbag2"), sensors, notices)
 
@@ -81,11 +80,5 @@ def _truth(bag: BagReader, imu_topic: str, truths: dict[str, str]) -> Truth | No
     around = [namespace for namespace in truths if imu_topic.startswith(namespace + "/")]
     if not around:
         return None
-    messages = list(bag.messages(truths[max(around, key=len)]))
-    return position_truth(messages) if messages else None
-
-
-def _blocks(bag: BagReader, topic: str, max_samples: int) -> Iterator[ImuBlock]:
-    messages = bag.messages(topic)
-    while piece := list(islice(messages, max_samples)):
-        yield imu_block(piece)
+    truth = bag.position_truth(truths[max(around, key=len)])
+    return truth if len(truth.stamp_ns) else None

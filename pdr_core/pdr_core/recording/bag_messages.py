@@ -2,14 +2,16 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.recording.bag_storage import Storage
+from pdr_core.recording.imu_cdr import imu_block_from_cdr
 from pdr_core.recording.session import put_warning
-from pdr_core.records import ImuBlock, Notice, Truth, TruthKind
+from pdr_core.records import ImuBlock, Notice, Truth, TruthKind, joined
 
 
 @dataclass(frozen=True)
@@ -23,21 +25,35 @@ class BagReader:
         """Return the message type of every topic."""
         return {topic: msgtype for storage in self.storages for topic, msgtype in storage.topics.items()}
 
-    def messages(self, topic: str) -> Iterator[Any]:
-        """Yield the messages of a topic that can be read, decoded."""
+    def imu_blocks(self, topic: str, max_samples: int) -> Iterator[ImuBlock]:
+        """Yield the samples of a sensor_msgs/Imu topic, at most `max_samples` at a time."""
+        messages = self._raw(topic)
+        unreadable, last_stamp_ns = 0, 0
+        while piece := list(islice(messages, max_samples)):
+            blocks = _blocks(piece)
+            if missing := len(piece) - sum(len(b.stamp_ns) for b in blocks):
+                unreadable += missing
+                self._tell_unreadable(topic, unreadable, last_stamp_ns)
+            if blocks:
+                last_stamp_ns = int(blocks[-1].stamp_ns[-1])
+                yield joined(blocks)
+
+    def position_truth(self, topic: str) -> Truth:
+        """Return the Odometry, PoseStamped or PointStamped messages of a topic as truth."""
         from rosbags.typesys import Stores, get_typestore
 
         decode, msgtype = get_typestore(Stores.ROS2_JAZZY).deserialize_cdr, self.topics()[topic]
-        unreadable, last_stamp_ns = 0, 0
-        for cdr in self._raw(topic):
-            message = _decoded(decode, cdr, msgtype)
-            if message is not None:
-                last_stamp_ns = stamp_ns(message)
-                yield message
-                continue
-            unreadable += 1
-            text = f"{topic}: messages that cannot be decoded were left out."
-            put_warning(self.notices, "unreadable_message", text, unreadable, last_stamp_ns)
+        decoded = [_decoded(decode, cdr, msgtype) for cdr in self._raw(topic)]
+        messages = [m for m in decoded if m is not None]
+        if len(messages) < len(decoded):
+            self._tell_unreadable(topic, len(decoded) - len(messages), 0)
+        stamps = [m.header.stamp.sec * NANOSECONDS + m.header.stamp.nanosec for m in messages]
+        points = [(p.x, p.y, p.z) for p in map(_point, messages)]
+        return Truth(TruthKind.POSITION, np.array(stamps, np.int64), np.array(points, np.float64).reshape(-1, 3))
+
+    def _tell_unreadable(self, topic: str, count: int, near_ns: int) -> None:
+        text = f"{topic}: messages that cannot be decoded were left out."
+        put_warning(self.notices, "unreadable_message", text, count, near_ns)
 
     def _raw(self, topic: str) -> Iterator[bytes]:
         for storage in self.storages:
@@ -52,35 +68,19 @@ class BagReader:
             put_warning(self.notices, "damaged_recording", text, 1, 0)
 
 
+def _blocks(messages: list[bytes]) -> list[ImuBlock]:
+    """Return the messages in one block where they are alike, else those that can be decoded one by one."""
+    whole = imu_block_from_cdr(messages)
+    single = [whole] if whole else [imu_block_from_cdr([message]) for message in messages]
+    return [block for block in single if block]
+
+
 def _decoded(decode: Callable[[bytes, str], Any], cdr: bytes, msgtype: str) -> Any:
     """Return the message, None if its bytes are damaged."""
     try:
         return decode(cdr, msgtype)
     except Exception:  # damaged bytes make rosbags raise anything
         return None
-
-
-def stamp_ns(message: Any) -> int:
-    """Return the header stamp of a message [ns]."""
-    return message.header.stamp.sec * NANOSECONDS + message.header.stamp.nanosec
-
-
-def imu_block(messages: list[Any]) -> ImuBlock:
-    """Return sensor_msgs/Imu messages as a block. A quantity whose covariance starts with -1 was not measured."""
-    stamps = np.array([stamp_ns(m) for m in messages], np.int64)
-    gyro = np.array([(v.x, v.y, v.z) for v in (m.angular_velocity for m in messages)])
-    accel = np.array([(v.x, v.y, v.z) for v in (m.linear_acceleration for m in messages)])
-    no_gyro = np.array([m.angular_velocity_covariance[0] for m in messages]) == -1.0
-    no_accel = np.array([m.linear_acceleration_covariance[0] for m in messages]) == -1.0
-    gyro[no_gyro], accel[no_accel] = 0.0, 0.0
-    return ImuBlock(stamps, gyro, accel, -1.0 * no_gyro, -1.0 * no_accel)
-
-
-def position_truth(messages: list[Any]) -> Truth:
-    """Return Odometry, PoseStamped or PointStamped messages as truth."""
-    points = [_point(m) for m in messages]
-    position_m = np.array([(p.x, p.y, p.z) for p in points]).reshape(-1, 3)
-    return Truth(TruthKind.POSITION, np.array([stamp_ns(m) for m in messages], np.int64), position_m)
 
 
 def _point(message: Any) -> Any:

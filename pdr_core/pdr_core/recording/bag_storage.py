@@ -18,13 +18,14 @@ class Storage(NamedTuple):
 def open_storage(path: Path) -> Storage:
     """Open a bag file, or a directory that must be read as a whole, whatever its state; nothing readable: no topics."""
     from pdr_core.recording.mcap_salvage import salvaged_mcap
-    from pdr_core.recording.sqlite_salvage import salvaged_sqlite
+    from pdr_core.recording.sqlite_salvage import ends_within_page, salvaged_sqlite
 
+    if path.suffix == ".db3" and ends_within_page(path):
+        return Storage(path, *salvaged_sqlite(path))
     try:
         return _indexed(path)
     except Exception:  # a damaged file makes rosbags raise anything
-        topics, messages = salvaged_mcap(path) if path.suffix == ".mcap" else salvaged_sqlite(path)
-        return Storage(path, topics, messages)
+        return Storage(path, *(salvaged_mcap(path) if path.suffix == ".mcap" else salvaged_sqlite(path)))
 
 
 def _indexed(path: Path) -> Storage:

@@ -12,7 +12,7 @@ def stamp_ns_from_text(text: str, ns_per_unit: Decimal = NS_PER_UNIT["s"]) -> in
     """Return the stamp [ns] that a decimal number counts in units of `ns_per_unit`; ValueError if there is none."""
     try:
         stamp_ns = int((Decimal(text.strip()) * ns_per_unit).to_integral_value())
-    except (InvalidOperation, OverflowError) as error:
+    except (InvalidOperation, OverflowError, ValueError) as error:
         raise ValueError(f"{text!r} is no time") from error
     if abs(stamp_ns) > INT64_MAX:
         raise ValueError(f"{text!r} is too long a time")

@@ -75,15 +75,13 @@ class TextTable:
 
 
 def open_text_table(path: Path, header_rows: int) -> TextTable:
-    """Read the header of a text file; RecordingError if the file is empty or holds no row below its header."""
+    """Read the header of a text file; RecordingError if the file cannot be read."""
     with _opened(path) as file:
-        lines = _next_lines(file, header_rows + 1)
-    if len(lines) <= header_rows or not lines[-1].strip():
-        raise RecordingError(f"{path} holds no samples: record it again, or copy it again from where it came.")
+        lines = _next_lines(file, max(header_rows, 1)) or [""]
     delimiter = max(DELIMITERS, key=lines[0].count)
-    header = [_cells(line, delimiter) for line in lines[:header_rows]]
-    if not header:
-        return TextTable(path, 0, delimiter, tuple(str(i) for i in range(lines[0].count(delimiter) + 1)))
+    header = [_cells(line, delimiter) for line in lines]
+    if header_rows == 0:
+        return TextTable(path, 0, delimiter, tuple(str(i) for i in range(len(header[0]))))
     return TextTable(path, header_rows, delimiter, tuple("/".join(parts) for parts in zip(*header, strict=False)))
 
 
