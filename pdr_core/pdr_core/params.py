@@ -65,7 +65,7 @@ class StanceParams:
         0.017, "gyro noise in the GLRT", unit="rad/s", bounds=(1e-5, 1.0), source="Gui eq. 8, sigma_omega"
     )
     threshold: float = parameter(
-        3000.0, "a foot stands where the statistic is at most this", bounds=(1e-3, 1e9), source="Gui section 3, T_d"
+        2000.0, "a foot stands where the statistic is at most this", bounds=(1e-3, 1e9), source="Gui section 3, T_d"
     )
     toe_off_ratio: float = parameter(
         4.0, "a toe-off is a statistic over this many thresholds", bounds=(1.0, 1e6), source="Gui section 3"
@@ -112,7 +112,7 @@ class FilterParams:
         "rest", "gravity from the specific force of the first rest or from the place", choices=("rest", "place")
     )
     zero_velocity_sd_mps: float = parameter(
-        0.03, "how still a standing foot is", unit="m/s", bounds=(1e-5, 10.0), source="Gui eq. 22, Zhou R_v"
+        0.02, "how still a standing foot is", unit="m/s", bounds=(1e-5, 10.0), source="Gui eq. 22, Zhou R_v"
     )
     gate: float = parameter(
         16.3, "normalised innovation squared that a zero-velocity update may have", bounds=(1.0, 1e9),

@@ -33,6 +33,11 @@ def at_origin() -> Nominal:
     return Nominal(np.zeros(3), np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), np.zeros(3), np.zeros(3))
 
 
+def observing(error: int) -> Floats:
+    """Return the Jacobian H, (3, 15), of a measurement that shows one error directly."""
+    return np.eye(SIZE)[error : error + 3]
+
+
 @compiled
 def inject(nominal: Nominal, error: Floats) -> None:
     """Correct the estimate by the estimated errors (15,), which are zero thereafter."""

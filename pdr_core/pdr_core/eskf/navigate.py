@@ -4,15 +4,14 @@ import numpy as np
 
 from pdr_core.eskf.align import align
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, VELOCITY
-from pdr_core.eskf.process import gap_noise, gap_transition, noise, transition
+from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import stance_is_over, stand
 from pdr_core.eskf.updates import zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.kalman import predict
-from pdr_core.maths.vector import product
-from pdr_core.records import Floats, NavBlock, StanceBlock
+from pdr_core.maths.vector import difference, mean
+from pdr_core.records import NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance
 
 
@@ -43,49 +42,45 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
         coast(dt_s if dt_ns > 0 else 1.0, s, state)
         return
     n = state.nominal
-    force_before = state.last_force_mps2 - n.accel_bias_mps2
-    force_after = block.imu.accel_mps2[i] - n.accel_bias_mps2
-    rate = 0.5 * (state.last_rate_radps + block.imu.gyro_radps[i]) - n.gyro_bias_radps
+    force_before = difference(state.last_force_mps2, n.accel_bias_mps2)
+    force_after = difference(block.imu.accel_mps2[i], n.accel_bias_mps2)
+    rate = difference(mean(state.last_rate_radps, block.imu.gyro_radps[i]), n.gyro_bias_radps)
     R_before, R_after = advance(
         n.position_m, n.velocity_mps, n.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2[0]
     )
-    decay = np.exp(-dt_s / s.process.bias_correlation_s)
-    n.accel_bias_mps2[:] *= decay
-    n.gyro_bias_radps[:] *= decay
-    F = transition(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
-    grow(F, noise(block.imu.accel_sd_mps2[i], block.imu.gyro_sd_radps[i], dt_s, s.process), state)
+    k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
+    q = noise(block.imu.accel_sd_mps2[i], block.imu.gyro_sd_radps[i], dt_s, s.process)
+    propagate_covariance(state.P, k, q)
+    carry(k, state.ends.cross)
+    n.accel_bias_mps2[:] *= k.bias_decay
+    n.gyro_bias_radps[:] *= k.bias_decay
 
 
 @compiled
 def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     """Cross a gap: hold the position, forget the velocity, trust everything less."""
     state.nominal.velocity_mps[:] = 0.0
-    grow(gap_transition(), gap_noise(dt_s, s.process), state)
+    cross_gap(state.P, state.ends.cross, dt_s, s.process)
     state.counts.gaps[0] += 1
-
-
-@compiled
-def grow(F: Floats, q: Floats, state: FilterState) -> None:
-    """Propagate the covariance and its covariance with the ends of the last stances."""
-    predict(state.P, F, q)
-    state.ends.cross[:] = product(F, state.ends.cross)
 
 
 @compiled
 def write(out: NavBlock, i: int, state: FilterState) -> None:
     """Write the estimate as sample i of the output."""
     n, P = state.nominal, state.P
-    p, v, a = slice(POSITION, POSITION + 3), slice(VELOCITY, VELOCITY + 3), slice(ATTITUDE, ATTITUDE + 3)
     out.stamp_ns[i] = state.last_ns[0]
-    out.position_m[i] = n.position_m
-    out.quat_xyzw[i] = n.quat_xyzw
-    out.velocity_mps[i] = n.velocity_mps
-    out.rate_radps[i] = state.last_rate_radps - n.gyro_bias_radps
-    out.pose_covariance[i, :3, :3] = P[p, p]
-    out.pose_covariance[i, :3, 3:] = P[p, a]
-    out.pose_covariance[i, 3:, :3] = P[a, p]
-    out.pose_covariance[i, 3:, 3:] = P[a, a]
-    out.velocity_covariance[i] = P[v, v]
+    for j in range(3):
+        out.position_m[i, j] = n.position_m[j]
+        out.velocity_mps[i, j] = n.velocity_mps[j]
+        out.rate_radps[i, j] = state.last_rate_radps[j] - n.gyro_bias_radps[j]
+        for k in range(3):
+            out.pose_covariance[i, j, k] = P[POSITION + j, POSITION + k]
+            out.pose_covariance[i, j, 3 + k] = P[POSITION + j, ATTITUDE + k]
+            out.pose_covariance[i, 3 + j, k] = P[ATTITUDE + j, POSITION + k]
+            out.pose_covariance[i, 3 + j, 3 + k] = P[ATTITUDE + j, ATTITUDE + k]
+            out.velocity_covariance[i, j, k] = P[VELOCITY + j, VELOCITY + k]
+    for j in range(4):
+        out.quat_xyzw[i, j] = n.quat_xyzw[j]
 
 
 @compiled

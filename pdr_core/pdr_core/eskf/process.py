@@ -6,8 +6,9 @@ With the definitions of `error_state.py` the errors obey
     d attitude / dt = -R gyro_bias + noise
     d bias / dt = -bias / correlation time + noise                    (first-order Markov)
 Gui eq. 18 prints +beta for the Markov terms, opposite to its eq. 15-16, which would make the biases diverge, and calls
-beta a time constant though it is the inverse of one. F below is the exact derivative of `mechanisation.advance`, up to
-second order in the rotation within one interval; the tests compare it with finite differences.
+beta a time constant though it is the inverse of one. `Link` and `carry` are the exact derivative of
+`mechanisation.advance`, up to second order in the rotation of one interval; the tests compare them with finite
+differences. F itself is mostly zeros, so it is never built: `carry` multiplies by it.
 """
 
 from typing import NamedTuple
@@ -16,7 +17,7 @@ import numpy as np
 
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import cross_matrix, product, rotated
+from pdr_core.maths.vector import Vector, cross_matrix, mean, product, rotated, scaled
 from pdr_core.records import Floats
 
 
@@ -30,63 +31,98 @@ class ProcessNoise(NamedTuple):
     gap_rate_radps: float
 
 
+class Link(NamedTuple):
+    """One interval as the errors see it: the blocks of F."""
+
+    dt_s: float
+    bias_decay: float
+    attitude_to_accel: Floats  # (3, 3)
+    gyro_bias_to_accel: Floats  # (3, 3)
+    mean_R: Floats  # (3, 3) world from foot
+
+
 @compiled
-def transition(
-    R_before: Floats, R_after: Floats, force_before: Floats, force_after: Floats, dt_s: float, correlation_s: float
-) -> Floats:
-    """Return F, (15, 15), over one interval; forces [m/s^2] (3,) in the foot frame, without bias."""
+def link(
+    R_before: Floats, R_after: Floats, force_before: Vector, force_after: Vector, dt_s: float, correlation_s: float
+) -> Link:
+    """Return the blocks of F; rotations as `advance` returns them, forces [m/s^2] in the foot frame, without bias."""
     after = rotated(R_after, force_after)
-    attitude_to_accel = -cross_matrix(0.5 * (rotated(R_before, force_before) + after))
+    attitude_to_accel = cross_matrix(scaled(-1.0, mean(rotated(R_before, force_before), after)))
     mean_R = 0.5 * (R_before + R_after)
-    gyro_to_accel = product(cross_matrix(after), mean_R) * (0.5 * dt_s)
-    decay = np.exp(-dt_s / correlation_s)
-    F = np.zeros((SIZE, SIZE))
-    for i in range(3):
-        for error in (POSITION, VELOCITY, ATTITUDE):
-            F[error + i, error + i] = 1.0
-        F[ACCEL_BIAS + i, ACCEL_BIAS + i] = decay
-        F[GYRO_BIAS + i, GYRO_BIAS + i] = decay
-        F[POSITION + i, VELOCITY + i] = dt_s
-        for j in range(3):
-            for error, rate in ((POSITION, 0.5 * dt_s * dt_s), (VELOCITY, dt_s)):
-                F[error + i, ATTITUDE + j] = attitude_to_accel[i, j] * rate
-                F[error + i, ACCEL_BIAS + j] = -mean_R[i, j] * rate
-                F[error + i, GYRO_BIAS + j] = gyro_to_accel[i, j] * rate
-            F[ATTITUDE + i, GYRO_BIAS + j] = -mean_R[i, j] * dt_s
-    return F
+    gyro_bias_to_accel = product(cross_matrix(scaled(0.5 * dt_s, after)), mean_R)
+    return Link(dt_s, np.exp(-dt_s / correlation_s), attitude_to_accel, gyro_bias_to_accel, mean_R)
+
+
+@compiled
+def carry(k: Link, M: Floats) -> None:
+    """Replace M, (15, m), by F M."""
+    for j in range(M.shape[1]):
+        attitude = M[ATTITUDE, j], M[ATTITUDE + 1, j], M[ATTITUDE + 2, j]
+        accel_bias = M[ACCEL_BIAS, j], M[ACCEL_BIAS + 1, j], M[ACCEL_BIAS + 2, j]
+        gyro_bias = M[GYRO_BIAS, j], M[GYRO_BIAS + 1, j], M[GYRO_BIAS + 2, j]
+        for i in range(3):
+            accel, turn = 0.0, 0.0
+            for n in range(3):
+                accel += k.attitude_to_accel[i, n] * attitude[n] - k.mean_R[i, n] * accel_bias[n]
+                accel += k.gyro_bias_to_accel[i, n] * gyro_bias[n]
+                turn -= k.mean_R[i, n] * gyro_bias[n]
+            M[POSITION + i, j] += k.dt_s * (M[VELOCITY + i, j] + 0.5 * k.dt_s * accel)
+            M[VELOCITY + i, j] += k.dt_s * accel
+            M[ATTITUDE + i, j] += k.dt_s * turn
+            M[ACCEL_BIAS + i, j] *= k.bias_decay
+            M[GYRO_BIAS + i, j] *= k.bias_decay
+
+
+@compiled
+def propagate_covariance(P: Floats, k: Link, q: Floats) -> None:
+    """Replace P, (15, 15), by F P F' + diag(q) (Gui eq. 17, Zhou eq. 9), exactly symmetric."""
+    carry(k, P)
+    transpose(P)
+    carry(k, P)
+    for i in range(SIZE):
+        P[i, i] += q[i]
+        for j in range(i):
+            mean = 0.5 * (P[i, j] + P[j, i])
+            P[i, j] = mean
+            P[j, i] = mean
+
+
+@compiled
+def transpose(P: Floats) -> None:
+    """Transpose a square matrix in place."""
+    for i in range(P.shape[0]):
+        for j in range(i):
+            upper = P[j, i]
+            P[j, i] = P[i, j]
+            P[i, j] = upper
 
 
 @compiled
 def noise(accel_sd_mps2: float, gyro_sd_radps: float, dt_s: float, process: ProcessNoise) -> Floats:
     """Return the diagonal of Q, (15,), over one interval: white sensor noise and the drift of the biases."""
-    q = np.zeros(SIZE)
+    q = np.empty(SIZE)
     velocity_sd = accel_sd_mps2 * dt_s
-    q[POSITION : POSITION + 3] = (0.5 * velocity_sd * dt_s) ** 2
-    q[VELOCITY : VELOCITY + 3] = velocity_sd**2
-    q[ATTITUDE : ATTITUDE + 3] = (gyro_sd_radps * dt_s) ** 2
-    q[ACCEL_BIAS : ACCEL_BIAS + 3] = process.accel_bias_walk**2 * dt_s
-    q[GYRO_BIAS : GYRO_BIAS + 3] = process.gyro_bias_walk**2 * dt_s
+    for i in range(3):
+        q[POSITION + i] = (0.5 * velocity_sd * dt_s) ** 2
+        q[VELOCITY + i] = velocity_sd**2
+        q[ATTITUDE + i] = (gyro_sd_radps * dt_s) ** 2
+        q[ACCEL_BIAS + i] = process.accel_bias_walk**2 * dt_s
+        q[GYRO_BIAS + i] = process.gyro_bias_walk**2 * dt_s
     return q
 
 
 @compiled
-def gap_transition() -> Floats:
-    """Return F, (15, 15), across a gap: the velocity is forgotten, all else stays."""
-    F = np.eye(SIZE)
-    for i in range(VELOCITY, VELOCITY + 3):
-        F[i, i] = 0.0
-    return F
+def cross_gap(P: Floats, cross: Floats, dt_s: float, process: ProcessNoise) -> None:
+    """Let P (15, 15) and the covariances `cross` (15, m) cross a gap in which a person may have walked and turned.
 
-
-@compiled
-def gap_noise(dt_s: float, process: ProcessNoise) -> Floats:
-    """Return the diagonal of Q, (15,), across a gap in which a person may have walked and turned.
-
-    The position wanders like that of a walker who takes a new direction every second; a foot may end a gap at any
-    phase of its swing.
+    The velocity is forgotten: a foot may end a gap at any phase of its swing. The position wanders like that of a
+    walker who takes a new direction every second.
     """
-    q = np.zeros(SIZE)
-    q[POSITION : POSITION + 3] = process.gap_speed_mps**2 * dt_s * max(dt_s, 1.0)
-    q[VELOCITY : VELOCITY + 3] = process.gap_speed_mps**2
-    q[ATTITUDE : ATTITUDE + 3] = process.gap_rate_radps**2 * dt_s * max(dt_s, 1.0)
-    return q
+    P[VELOCITY : VELOCITY + 3] = 0.0
+    P[:, VELOCITY : VELOCITY + 3] = 0.0
+    cross[VELOCITY : VELOCITY + 3] = 0.0
+    spread_s2 = dt_s * max(dt_s, 1.0)
+    for i in range(3):
+        P[POSITION + i, POSITION + i] += process.gap_speed_mps**2 * spread_s2
+        P[VELOCITY + i, VELOCITY + i] = process.gap_speed_mps**2
+        P[ATTITUDE + i, ATTITUDE + i] += process.gap_rate_radps**2 * spread_s2

@@ -5,7 +5,7 @@ A stance goes on while the zero-velocity updates are accepted; interruptions sho
 
 import numpy as np
 
-from pdr_core.eskf.error_state import ATTITUDE, POSITION
+from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
 from pdr_core.eskf.state import Ends, FilterState
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import yaw_rad
@@ -16,14 +16,20 @@ from pdr_core.records import StepEvent
 def stand(stamp_ns: int, state: FilterState) -> None:
     """Note that the stance lasts until now."""
     e, P = state.ends, state.P
-    p = slice(POSITION, POSITION + 3)
     e.stamp_ns[1] = stamp_ns
-    e.position_m[1] = state.nominal.position_m
-    e.covariance[1] = P[p, p]
-    e.cross[:, 3:] = P[:, p]
-    e.displacement_covariance[:] = P[p, p] + e.covariance[0] - e.cross[p, :3] - e.cross[p, :3].T
     e.yaw_rad[1] = yaw_rad(state.nominal.quat_xyzw)
     e.yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
+    for i in range(3):
+        e.position_m[1, i] = state.nominal.position_m[i]
+        for j in range(3):
+            now = P[POSITION + i, POSITION + j]
+            e.covariance[1, i, j] = now
+            e.displacement_covariance[i, j] = (
+                now + e.covariance[0, i, j] - e.cross[POSITION + i, j] - e.cross[POSITION + j, i]
+            )
+    for i in range(SIZE):
+        for j in range(3):
+            e.cross[i, 3 + j] = P[i, POSITION + j]
 
 
 @compiled

@@ -1,60 +1,66 @@
-"""The Kalman filter's algebra for any state size: the only code that writes a covariance."""
+"""The Kalman filter's algebra for any state and measurement: innovation, gain, correction."""
+
+from typing import NamedTuple
 
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import inverse_symmetric, product
+from pdr_core.maths.vector import product
 from pdr_core.records import Floats
 
 
-@compiled
-def predict(P: Floats, F: Floats, q: Floats) -> None:
-    """Replace the covariance P (n, n) by F P F' + diag(q), kept symmetric (Gui eq. 17, Zhou eq. 9)."""
-    half = product(F, P)
-    P[:] = product(F, half.T.copy())  # (F (F P)')' = F P F', which is symmetric
-    n = P.shape[0]
-    for i in range(n):
-        P[i, i] += q[i]
-    symmetrise(P)
+class Innovation(NamedTuple):
+    """What a measurement says beyond the prediction."""
+
+    residual: Floats  # (m,) truth minus estimate
+    HP: Floats  # (m, n) covariance of measurement and state
+    S: Floats  # (m, m) covariance of the residual
+    S_inverse: Floats  # (m, m)
 
 
 @compiled
-def symmetrise(P: Floats) -> None:
-    """Average P (n, n) with its transpose."""
-    for i in range(P.shape[0]):
-        for j in range(i):
-            mean = 0.5 * (P[i, j] + P[j, i])
-            P[i, j] = mean
-            P[j, i] = mean
+def innovation(P: Floats, H: Floats, R: Floats, residual: Floats) -> Innovation:
+    """Return the innovation of a measurement with Jacobian H (m, n) and noise R (m, m) on the covariance P (n, n)."""
+    HP = product(H, P)
+    S = product(HP, H.T) + R
+    return Innovation(residual, HP, S, np.linalg.inv(S))
 
 
 @compiled
-def innovation_covariance(P: Floats, H: Floats, R: Floats) -> Floats:
-    """Return S = H P H' + R, (m, m)."""
-    return product(product(H, P), H.T.copy()) + R
+def inflated(y: Innovation, factor: float) -> Innovation:
+    """Return the innovation with a noise R that makes S larger by a factor."""
+    return Innovation(y.residual, y.HP, y.S * factor, y.S_inverse / factor)
 
 
 @compiled
-def normalised_innovation_squared(residual: Floats, S: Floats) -> float:
-    """Return y' S^-1 y, which is chi-square distributed with m degrees of freedom where all is modelled."""
-    weighted = product(inverse_symmetric(S), residual.reshape(-1, 1))[:, 0]
-    return np.sum(residual * weighted)
+def normalised_squared(y: Innovation) -> float:
+    """Return y' S^-1 y, which is chi-square distributed with m degrees of freedom where the model holds."""
+    total = 0.0
+    for i in range(y.residual.shape[0]):
+        for j in range(y.residual.shape[0]):
+            total += y.residual[i] * y.S_inverse[i, j] * y.residual[j]
+    return total
 
 
 @compiled
-def gain(P: Floats, H: Floats, S: Floats) -> Floats:
+def gain(y: Innovation) -> Floats:
     """Return the optimal gain K = P H' S^-1, (n, m) (Gui eq. 20, Zhou eq. 13)."""
-    return product(product(P, H.T.copy()), inverse_symmetric(S))
+    return product(y.HP.T, y.S_inverse)
 
 
 @compiled
-def correct(P: Floats, K: Floats, H: Floats, R: Floats) -> None:
-    """Replace P by (I - K H) P (I - K H)' + K R K'.
+def correct(P: Floats, K: Floats, y: Innovation) -> None:
+    """Replace P by Joseph's form (I - K H) P (I - K H)' + K R K', in place.
 
-    Joseph's form holds for any gain, also for one with rows set to zero; the shorter form of Gui eq. 26 and Zhou
-    eq. 12 holds for the optimal gain alone.
+    It holds for any gain, also for one with rows set to zero; the shorter (I - K H) P of Gui eq. 26 and Zhou eq. 12
+    holds for the optimal gain alone. Multiplied out it is P - K HP - (K HP)' + K S K', and with B = HP - S K' / 2 it is
+    P - K B - (K B)': symmetric by construction, at a tenth of the cost.
     """
-    half = P - product(K, product(H, P))
-    Kt = K.T.copy()
-    P[:] = half - product(product(half, H.T.copy()), Kt) + product(K, product(R, Kt))
-    symmetrise(P)
+    B = y.HP - 0.5 * product(y.S, K.T)
+    for i in range(P.shape[0]):
+        for j in range(i + 1):
+            total = P[i, j]
+            for m in range(y.S.shape[0]):
+                total -= K[i, m] * B[m, j] + K[j, m] * B[m, i]
+            P[i, j] = total
+            P[j, i] = total

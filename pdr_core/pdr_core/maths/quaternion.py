@@ -1,43 +1,48 @@
-"""Unit quaternions (x, y, z, w) as in ROS and scipy; q turns body coordinates into world coordinates."""
+"""Unit quaternions (x, y, z, w) as in ROS and scipy; q turns body coordinates into world coordinates.
+
+The functions take anything with four (or three) numbers and return tuples, which cost nothing in compiled code.
+"""
 
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import Vector
 from pdr_core.records import Floats
+
+Quaternion = tuple[float, float, float, float]
 
 
 @compiled
-def multiply(p: Floats, q: Floats) -> Floats:
-    """Return the product p q, (4,): first q, then p."""
-    return np.array(
-        [
-            p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1],
-            p[3] * q[1] - p[0] * q[2] + p[1] * q[3] + p[2] * q[0],
-            p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3],
-            p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2],
-        ]
+def multiply(p: Quaternion, q: Quaternion) -> Quaternion:
+    """Return the product p q: first q, then p."""
+    return (
+        p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1],
+        p[3] * q[1] - p[0] * q[2] + p[1] * q[3] + p[2] * q[0],
+        p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3],
+        p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2],
     )
 
 
 @compiled
-def from_rotation_vector(angle_rad: Floats) -> Floats:
-    """Return the quaternion (4,) of a rotation vector [rad] (3,): the exponential map, exact also near zero."""
+def from_rotation_vector(angle_rad: Vector) -> Quaternion:
+    """Return the quaternion of a rotation vector [rad]: the exponential map, exact also near zero."""
     norm = np.sqrt(angle_rad[0] ** 2 + angle_rad[1] ** 2 + angle_rad[2] ** 2)
     half = 0.5 * norm
     scale = np.sin(half) / norm if norm > 1e-8 else 0.5 - norm**2 / 48.0
-    return np.array([scale * angle_rad[0], scale * angle_rad[1], scale * angle_rad[2], np.cos(half)])
+    return scale * angle_rad[0], scale * angle_rad[1], scale * angle_rad[2], np.cos(half)
 
 
 @compiled
-def normalised(q: Floats) -> Floats:
+def normalised(q: Quaternion) -> Quaternion:
     """Return q scaled to unit length."""
-    return q / np.sqrt(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2)
+    length = np.sqrt(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2)
+    return q[0] / length, q[1] / length, q[2] / length, q[3] / length
 
 
 @compiled
-def matrix(q: Floats) -> Floats:
+def matrix(q: Quaternion) -> Floats:
     """Return the rotation matrix (3, 3) of a unit quaternion."""
-    x, y, z, w = q
+    x, y, z, w = q[0], q[1], q[2], q[3]
     return np.array(
         [
             [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
@@ -48,23 +53,21 @@ def matrix(q: Floats) -> Floats:
 
 
 @compiled
-def yaw_rad(q: Floats) -> float:
+def yaw_rad(q: Quaternion) -> float:
     """Return the yaw of the body x axis, counter-clockwise from world x (REP-103)."""
-    x, y, z, w = q
+    x, y, z, w = q[0], q[1], q[2], q[3]
     return np.arctan2(2.0 * (x * y + z * w), 1.0 - 2.0 * (y * y + z * z))
 
 
 @compiled
-def from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Floats:
+def from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Quaternion:
     """Return the quaternion of roll, pitch, yaw about the fixed axes x, y, z (REP-103)."""
     cr, sr = np.cos(0.5 * roll_rad), np.sin(0.5 * roll_rad)
     cp, sp = np.cos(0.5 * pitch_rad), np.sin(0.5 * pitch_rad)
     cy, sy = np.cos(0.5 * yaw_rad), np.sin(0.5 * yaw_rad)
-    return np.array(
-        [
-            sr * cp * cy - cr * sp * sy,
-            cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy,
-            cr * cp * cy + sr * sp * sy,
-        ]
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
     )
