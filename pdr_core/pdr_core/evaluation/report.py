@@ -27,7 +27,7 @@ class Picture(NamedTuple):
     name: str  # its id on the page
     title: str
     caption: str
-    json: str  # of plotly
+    json: str  # of plotly, which escapes every < in it
 
 
 def write_report(
@@ -78,25 +78,20 @@ def _pictures(trace: Trace, steps: Sequence[StepEvent], view: TruthView | None) 
     """Yield the figures from top to bottom."""
     caption = "The track from above, each footfall a circle. An ellipse shows how uncertain the position is (1 σ)."
     laid = " The truth is turned and moved onto the estimate, as for ATE2." if view else ""
-    yield Picture("plan", "Where the walk went", caption + laid, _json(plan(trace, steps, view)))
+    yield Picture("plan", "Where the walk went", caption + laid, plan(trace, steps, view).to_json())
     caption = "Below the threshold the foot counts as standing (shaded): only then is the speed known to be zero."
-    yield Picture("stance", "When the foot stood", caption, _json(plots.stance(trace)))
+    yield Picture("stance", "When the foot stood", caption, plots.stance(trace).to_json())
     caption = "The height of the foot; the band shows how uncertain it is (1 σ)."
-    yield Picture("height", "How high the foot was", caption, _json(plots.height(trace, view)))
+    yield Picture("height", "How high the foot was", caption, plots.height(trace, view).to_json())
     if view:
         caption = "Distance to the truth after it was laid onto the whole track."
-        yield Picture("error", "How far off it was", caption, _json(plots.error(view)))
+        yield Picture("error", "How far off it was", caption, plots.error(view).to_json())
     else:
         caption = "No truth along the way: this is what the filter itself expects its error to be (1 σ)."
-        yield Picture("error", "How far off it may be", caption, _json(plots.deviation(trace)))
+        yield Picture("error", "How far off it may be", caption, plots.deviation(trace).to_json())
     if steps:
         caption = "Length and direction of each stride; 0° is the direction of x, left turns count up."
-        yield Picture("strides", "Stride by stride", caption, _json(plots.strides(steps)))
-
-
-def _json(figure: Any) -> str:
-    """Return a figure as JSON that is safe inside a script element."""
-    return figure.to_json().replace("<", "\\u003c")
+        yield Picture("strides", "Stride by stride", caption, plots.strides(steps).to_json())
 
 
 def _rows(config: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]]:

@@ -72,6 +72,7 @@ def test_the_file_stands_alone_and_holds_every_figure(make, tmp_path, kind):
     assert text.count("<script>") == 2
     assert page.ids == FIGURES
     assert len(figures_in(text)) == len(FIGURES)
+    assert not any("<" in line for line in re.findall(r"const figure = .*;\n", text))  # could end the script
     assert path.stat().st_size < 6_000_000
 
 

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pdr_core.evaluation import metrics
 from pdr_core.evaluation.score import Scorer
 from pdr_core.records import Truth, TruthKind, part
 
@@ -101,6 +102,19 @@ def test_strides_use_the_given_start_and_ten_metres(make):
     steps = make.steps_at(1.1 * true_m + 5.0)
     score = scored(Truth(TruthKind.STRIDES, NO_STAMPS, true_m), steps=steps, start_m=(5.0, 5.0, 0.0))
     assert (score.end_error_m, score.end_error_percent) == pytest.approx((2.0, 10.0))
+
+
+def test_the_yaw_at_the_start_comes_from_three_metres_or_ten_of_strides(make):
+    rng = np.random.default_rng(9)
+    true_m = np.column_stack([np.arange(21.0), np.zeros(21), np.zeros(21)])
+    estimate_m = true_m + rng.normal(0, 0.1, true_m.shape)
+    stamps = np.arange(21) * SECOND
+    along = scored(position(stamps, true_m), make.nav_block(stamps, estimate_m))
+    strides = Truth(TruthKind.STRIDES, NO_STAMPS, true_m[:, :2])
+    by_stride = scored(strides, steps=make.steps_at(estimate_m), start_m=estimate_m[0])
+    assert along.end_error_percent == pytest.approx(metrics.end_error_percent(estimate_m, true_m, 3.0))
+    assert by_stride.end_error_percent == pytest.approx(metrics.end_error_percent(estimate_m, true_m, 10.0))
+    assert abs(along.end_error_percent - by_stride.end_error_percent) > 0.1
 
 
 def test_a_missed_first_stride_shifts_every_pair(make):
