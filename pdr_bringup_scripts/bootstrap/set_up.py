@@ -27,7 +27,7 @@ def set_up(layout: Layout, inherited: Mapping[str, str]) -> None:
         if not scope:
             return
         progress = Progress(layout.log, lock)
-        progress.say(f"setting up: {reason}; takes about a minute, details in {layout.log}")
+        progress.say(f"setting up: {reason}; takes a minute or two, details in {layout.log}")
         if scope == stamp.EVERYTHING:
             _make_environment(layout, inherited, progress)
         _make_messages(layout, inherited, progress)

@@ -87,10 +87,11 @@ def digest(paths: Iterable[Path], extra: str = "") -> str:
 
 def _damage(layout: Layout, stamp: Mapping[str, Any]) -> str:
     """Say what of the environment is gone, by looking at files only."""
-    if os.path.realpath(layout.python) != stamp["python"]:
-        return "its Python is another one now"
     gone = _first_missing([stamp["python"], *stamp["contents"]])
-    return f"{gone} is missing" if gone else ""
+    if gone:
+        return f"{gone} is missing"
+    same = os.path.realpath(layout.python) == stamp["python"]
+    return "" if same else "its Python is another one now"
 
 
 def _first_missing(paths: Iterable[str]) -> str:
