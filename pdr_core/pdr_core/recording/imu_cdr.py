@@ -19,7 +19,7 @@ def imu_block_from_cdr(messages: list[bytes]) -> ImuBlock | None:
     if layout is None or any(len(m) != layout.itemsize for m in messages):
         return None
     table = np.frombuffer(b"".join(messages), layout)
-    if (table["kind"] != table["kind"][0]).any() or (table["frame_bytes"] != table["frame_bytes"][0]).any():
+    if (table["kind"] != table["kind"][0]).any():
         return None
     stamp_ns = table["sec"].astype(np.int64) * NANOSECONDS + table["nanosec"]
     gyro, gyro_sd = _measured(table["numbers"], RATE)
@@ -38,7 +38,6 @@ def _layout(message: bytes) -> np.dtype | None:
         "kind": ("S2", 0),
         "sec": (f"{order}i4", 4),
         "nanosec": (f"{order}u4", 8),
-        "frame_bytes": (f"{order}u4", 12),
         "numbers": (f"({NUMBERS},){order}f8", numbers),
     }
     formats, offsets = zip(*fields.values(), strict=True)

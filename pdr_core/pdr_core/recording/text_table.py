@@ -61,7 +61,7 @@ class TextTable:
             return np.empty(0, dtype)
         return np.loadtxt(
             lines, dtype, comments=None, delimiter=self.delimiter, converters=converters, usecols=columns,
-            ndmin=1, encoding="utf-8", quotechar='"',
+            ndmin=1, encoding="utf-8",
         )  # fmt: skip
 
     def _parsed_one_by_one(self, lines: list[str], clock: Clock, columns: Sequence[int], first_row: int) -> Rows:

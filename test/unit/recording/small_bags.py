@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
@@ -62,16 +62,18 @@ def odometry_cdr(i: int) -> bytes:
     return bytes(TYPES.serialize_cdr(message, "nav_msgs/msg/Odometry"))
 
 
-def write_bag(path: Path, messages: list[tuple[str, str, bytes]], storage: str) -> Path:
+def write_bag(path: Path, messages: list[tuple[str, str, bytes]], storage: str, mode=CompressionMode.NONE) -> Path:
     """Write (topic, type, CDR) messages, received an hour after their stamps; return the storage file."""
     plugin = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}[storage]
-    with Writer(path, version=9, storage_plugin=plugin) as writer:
+    new = Writer(path, version=9, storage_plugin=plugin)
+    new.set_compression(mode, CompressionFormat.ZSTD)
+    with new as writer:
         connections = {}
         for i, (topic, msgtype, cdr) in enumerate(messages):
             if topic not in connections:
                 connections[topic] = writer.add_connection(topic, msgtype, typestore=TYPES)
             writer.write(connections[topic], stamp(i) + 3_600_000_000_000, cdr)
-    return next(f for f in path.iterdir() if f.suffix in {".mcap", ".db3"})
+    return next(f for f in path.iterdir() if f.suffix != ".yaml")
 
 
 def imu_messages(count: int, topic: str = "/imu/data_raw") -> list[tuple[str, str, bytes]]:

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from rosbags.rosbag2 import CompressionMode
 from small_bags import IMU, POINT, POSE, imu_cdr, imu_messages, odometry_cdr, point_cdr, pose_cdr, stamp, write_bag
 
 from pdr_core.recording import RecordingError, open_recording
@@ -121,6 +122,36 @@ def test_each_foot_gets_the_truth_of_its_namespace(tmp_path):
     sensors = open_recording(tmp_path / "walk").sensors
     assert sensors["left/imu"].truth.position_m[0, 0] == 5.0
     assert sensors["right/imu"].truth.position_m[0, 0] == 7.0
+
+
+def test_the_closest_truth_is_taken(tmp_path):
+    messages = imu_messages(2, "/left/imu/data") + imu_messages(2, "/right/imu/data")
+    messages += [("/ground_truth", POINT, point_cdr(5)), ("/left/ground_truth", POINT, point_cdr(7))]
+    write_bag(tmp_path / "walk", messages, "mcap")
+    sensors = open_recording(tmp_path / "walk").sensors
+    assert sensors["left/imu"].truth.position_m[0, 0] == 7.0
+    assert sensors["right/imu"].truth.position_m[0, 0] == 5.0
+
+
+def test_a_file_of_a_split_bag_may_lack_a_topic(tmp_path):
+    (tmp_path / "walk").mkdir()
+    parts = [imu_messages(3), imu_messages(2, "/other/data")]
+    for i, messages in enumerate(parts):
+        write_bag(tmp_path / f"p{i}", messages, "mcap").rename(tmp_path / "walk" / f"walk_{i}.mcap")
+    check_samples(samples(open_recording(tmp_path / "walk")), 3)
+
+
+@pytest.mark.parametrize("mode", [CompressionMode.FILE, CompressionMode.MESSAGE])
+@STORAGES
+def test_a_compressed_bag_is_read(tmp_path, storage, mode):
+    write_bag(tmp_path / "walk", imu_messages(10), storage, mode)
+    check_samples(samples(open_recording(tmp_path / "walk")), 10)
+
+
+def test_messages_of_both_byte_orders_mix(tmp_path):
+    cdr = [imu_cdr(0), imu_cdr(1, little_endian=False)]
+    write_bag(tmp_path / "walk", [("/imu/data_raw", IMU, c) for c in cdr], "mcap")
+    check_samples(samples(open_recording(tmp_path / "walk")), 2)
 
 
 @STORAGES

@@ -2,7 +2,7 @@ import io
 
 import pytest
 from mcap.writer import CompressionType, Writer
-from small_bags import imu_cdr, imu_messages, stamp, write_bag
+from small_bags import IMU, POINT, imu_cdr, imu_messages, point_cdr, stamp, write_bag
 
 from pdr_core.recording import RecordingError, open_recording
 from pdr_core.records import joined
@@ -37,13 +37,13 @@ def check_cuts(whole: bytes, path, cuts):
     return counts
 
 
-def mcap_bytes(compression: CompressionType, chunk_size: int, finish: bool = True) -> bytes:
+def mcap_bytes(compression: CompressionType, chunk_size: int, finish: bool = True, count: int = COUNT) -> bytes:
     file = io.BytesIO()
     writer = Writer(file, chunk_size=chunk_size, compression=compression)
     writer.start("ros2")
     schema = writer.register_schema("sensor_msgs/msg/Imu", "ros2msg", b"")
     channel = writer.register_channel("/imu/data", "cdr", schema)
-    for i in range(COUNT):
+    for i in range(count):
         writer.add_message(channel, stamp(i), imu_cdr(i), stamp(i))
     if finish:
         writer.finish()
@@ -60,6 +60,38 @@ def test_a_cut_mcap_gives_what_is_before_the_cut(tmp_path, compression, chunk_si
     assert counts[-1] == COUNT
     if compression is CompressionType.NONE:
         assert counts[30] >= 0.45 * COUNT
+
+
+@pytest.mark.parametrize("compression", list(CompressionType))
+def test_a_chunk_cut_in_two_gives_its_first_half(tmp_path, compression):
+    whole = mcap_bytes(compression, 10_000_000, count=4000)
+    chunk = 8 + 9 + int.from_bytes(whole[9:17], "little")  # after magic and header
+    cut = chunk + 9 + int.from_bytes(whole[chunk + 1 : chunk + 9], "little") // 2
+    (tmp_path / "cut.mcap").write_bytes(whole[:cut])
+    stamps, kinds = read(tmp_path / "cut.mcap")
+    assert 1000 < len(stamps) < 3000
+    assert kinds == ["damaged_recording"]
+
+
+def test_other_topics_stay_apart_in_a_damaged_bag(tmp_path):
+    messages = [m for i in range(200) for m in (("/where", POINT, point_cdr(i)), ("/imu/data", IMU, imu_cdr(i)))]
+    for storage in ("mcap", "sqlite3"):
+        file = write_bag(tmp_path / storage, messages, storage)
+        file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+        stamps, kinds = read(file)
+        assert stamps == [stamp(i) for i in range(len(stamps))]
+        assert len(stamps) > 40
+        assert kinds == ["damaged_recording"]
+
+
+def test_the_page_that_an_sqlite_bag_breaks_off_in_is_not_trusted(tmp_path):
+    for count in (20, 40):
+        whole = write_bag(tmp_path / f"{count}", imu_messages(count), "sqlite3").read_bytes()
+        for cut in range(len(whole) - 4200, len(whole), 83):
+            (tmp_path / "cut.db3").write_bytes(whole[:cut])
+            stamps, kinds = read(tmp_path / "cut.db3") or ([], [])
+            assert stamps == [stamp(i) for i in range(len(stamps))]
+            assert not stamps or kinds == ["damaged_recording"] or len(stamps) == count
 
 
 def test_an_mcap_without_summary_is_read_whole(tmp_path):

@@ -120,6 +120,12 @@ def test_rows_are_the_clock_of_the_x_imu(tmp_path):
     assert block.stamp_ns.tolist() == [0, 3_906_250, 7_812_500, 11_718_750]
 
 
+def test_rows_are_no_clock_where_the_x_imu_is_not_recognised(tmp_path):
+    path = write(tmp_path / "walk.csv", "Time [s]," + NGIMU.split(",", 1)[1], "0,0,0,0,0,0,1")
+    with pytest.raises(RecordingError, match="no known format"):
+        open_recording(path)
+
+
 def test_two_header_rows_two_feet_and_their_markers(tmp_path):
     axes = [f"{kind}_{axis}" for kind in ("acc", "gyr") for axis in "xyz"]
     header = "sensor," + ",".join(f"{f}_sensor" for _ in axes for f in ("left", "right"))
