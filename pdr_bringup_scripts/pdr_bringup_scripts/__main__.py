@@ -1,11 +1,28 @@
-"""The `pdr` command (a placeholder until its sub-commands are here)."""
+"""The `pdr` command: pedestrian dead reckoning from inertial sensors on the shoe."""
 
-from __future__ import annotations
+import typer
+
+from pdr_bringup_scripts.commands import demo, params, replay, run, test
+
+app = typer.Typer(
+    help=__doc__,
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="markdown",
+    context_settings={"help_option_names": ["-h", "--help"]},
+    pretty_exceptions_enable=False,
+)
+for module in (demo, test, run, replay, params):
+    name = module.__name__.rsplit(".", 1)[-1]
+    allowed = {"allow_extra_args": True, "ignore_unknown_options": True} if name == "test" else {}
+    app.command(name, context_settings=allowed)(getattr(module, name))
 
 
 def main() -> None:
-    """Say that there is nothing to run yet."""
-    print("pdr 0.1.0")
+    """Run the command line; an error a user can mend is one sentence and exit code 2."""
+    from pdr_bringup_scripts.problems import told
+
+    told(app)
 
 
 if __name__ == "__main__":

@@ -3,9 +3,11 @@
 YAML files, ROS declarations and the tables of the documentation are generated from here (see `parameter.py`).
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any
 
-from pdr_core.parameter import parameter
+from pdr_core.parameter import ParameterError, from_mapping, parameter
 
 
 @dataclass(frozen=True)
@@ -74,11 +76,11 @@ class StanceParams:
         0.05, "time threshold: a stance lasts at least so long", unit="s", bounds=(0.0, 1.0), source="Gui section 3"
     )
     dip_max_s: float = parameter(
-        0.12, "what begins sooner after toe-off than swing_min_s must last longer than this", unit="s", bounds=(0.0, 1.0),
+        0.15, "what begins sooner after toe-off than swing_min_s must last longer than this", unit="s", bounds=(0.0, 1.0),
         source="Gui figure 3",
     )
     swing_min_s: float = parameter(
-        0.25, "shortest time from toe-off to heel strike", unit="s", bounds=(0.0, 2.0), source="Gui section 3"
+        0.55, "within this time after a toe-off, a short dip of the statistic is mid-swing", unit="s", bounds=(0.0, 2.0), source="Gui section 3"
     )
     rest_moving_radps: float = parameter(
         0.5, "a mean rate over this is a moving foot", unit="rad/s", bounds=(0.01, 10.0), source="RESEARCH B.2"
@@ -146,3 +148,69 @@ class FilterParams:
     initial_gyro_bias_sd_radps: float = parameter(
         0.0035, "what the sensor may bring: 0.2 deg/s", unit="rad/s", bounds=(0.0, 1.0), source="RESEARCH B.2"
     )
+
+
+@dataclass(frozen=True)
+class DriverParams:
+    """The driver: which device, how fast."""
+
+    device: str = parameter("simulated", "where the samples come from", choices=("simulated", "replayed"))
+    recording: str = parameter("", "path of the recording to replay")
+    sensor: str = parameter("", "which sensor of the recording; empty: the only one")
+    rate_factor: float = parameter(
+        1.0, "speed of the replay; 0: as fast as the subscribers take it", bounds=(0.0, 1000.0)
+    )
+    walk: str = parameter("rectangle", "the simulated walk", choices=("rectangle", "straight", "still"))
+    walk_length_m: float = parameter(36.0, "length of the simulated walk", unit="m", bounds=(0.0, 1e5))
+    sensor_model: str = parameter(
+        "consumer", "the simulated sensor", choices=("ideal", "consumer", "gui_table_1"), source="Gui Table 1"
+    )
+    sample_rate_hz: float = parameter(200.0, "rate of the simulated sensor", unit="Hz", bounds=(20.0, 4000.0))
+    seed: int = parameter(1, "seed of the simulated noise", bounds=(0, 2**31))
+    settling_s: float = parameter(0.05, "what the gyro needs after being switched on", unit="s", bounds=(0.0, 10.0))
+
+
+@dataclass(frozen=True)
+class NodeParams:
+    """Frames, streams and habits of the nodes."""
+
+    world_frame: str = parameter("odom", "frame of the estimate", source="REP-105")
+    foot_frame: str = parameter("foot", "frame of the foot")
+    sensor_frame: str = parameter("imu_link", "frame of the sensor", source="REP-145")
+    publish_tf: bool = parameter(False, "broadcast world_frame -> foot_frame; one node at a time may")
+    input_reliable: bool = parameter(
+        False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
+    )
+    idle_s: float = parameter(
+        1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)
+    )
+
+
+@dataclass(frozen=True)
+class Params:
+    """All of them, by group."""
+
+    intake: IntakeParams = field(default_factory=IntakeParams)
+    place: PlaceParams = field(default_factory=PlaceParams)
+    stance: StanceParams = field(default_factory=StanceParams)
+    filter: FilterParams = field(default_factory=FilterParams)
+    driver: DriverParams = field(default_factory=DriverParams)
+    node: NodeParams = field(default_factory=NodeParams)
+
+
+GROUPS: dict[str, type] = {f.name: f.default_factory for f in fields(Params)}  # type: ignore[misc]
+
+
+def params_from_mapping(mapping: Mapping[str, Mapping[str, Any]]) -> Params:
+    """Build the parameters from {group: {name: value}}; unknown groups and names stop with a ParameterError."""
+    for group, values in mapping.items():
+        if group not in GROUPS:
+            raise ParameterError(f"{group}: unknown group of parameters; known are {', '.join(GROUPS)}")
+        if not isinstance(values, Mapping):
+            raise ParameterError(f"{group} = {values!r}: must be a mapping of parameters")
+    return Params(**{g: from_mapping(GROUPS[g], values, f"{g}.") for g, values in mapping.items()})
+
+
+def params_as_mapping(params: Params) -> dict[str, dict[str, Any]]:
+    """Return the parameters as {group: {name: value}}."""
+    return asdict(params)

@@ -54,7 +54,7 @@ class NavBlock(NamedTuple):
 class StepEvent:
     """One step of one foot: from the end of one stance to the end of the next."""
 
-    index: int  # 1, 2, 3 ...; 0 is where the walk starts
+    index: int  # 1, 2, 3 ...
     start_ns: int
     stamp_ns: int
     position_m: Floats  # (3,)

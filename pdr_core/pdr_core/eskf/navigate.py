@@ -20,13 +20,15 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
     """Take sample i of the block into the estimate."""
     stamp_ns = block.imu.stamp_ns[i]
     if state.alignment.running[0]:
-        align(stamp_ns, block.imu.accel_mps2[i], s, state)
+        align(stamp_ns, block.imu.accel_mps2[i], block.imu.gyro_radps[i], s, state)
     else:
         propagate(block, i, s, state)
         if block.rest_sd_radps[i] > 0.0:
             zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
         if block.stance[i] and zero_velocity(stamp_ns, s, state):
             stand(stamp_ns, state)
+        since_s = (stamp_ns - state.last_accepted_ns[0]) * 1e-9
+        state.counts.longest_swing_s[0] = max(since_s, state.counts.longest_swing_s[0])
     state.last_ns[0] = stamp_ns
     state.last_force_mps2[:] = block.imu.accel_mps2[i]
     state.last_rate_radps[:] = block.imu.gyro_radps[i]

@@ -15,6 +15,7 @@ class Alignment(NamedTuple):
     start_ns: Stamps  # (1,) -1: no sample yet
     force_sum: Floats  # (3,)
     count: Stamps  # (1,)
+    moving: Flags  # (1,) the foot did not rest
 
 
 class Ends(NamedTuple):
@@ -42,6 +43,7 @@ class Counts(NamedTuple):
     rejected: Stamps  # (1,) by the innovation gate
     released: Stamps  # (1,) accepted with inflated noise after a row of rejections
     gaps: Stamps  # (1,)
+    longest_swing_s: Floats  # (1,) longest time without a zero-velocity update
     normalised_innovation: Floats  # (1,) of the last zero-velocity update
 
 
@@ -82,7 +84,7 @@ def fresh_state() -> FilterState:
         last_rate_radps=np.zeros(3),
         last_accepted_ns=none_yet(),
         rejecting_since_ns=none_yet(),
-        alignment=Alignment(np.ones(1, np.bool_), none_yet(), np.zeros(3), zero()),
+        alignment=Alignment(np.ones(1, np.bool_), none_yet(), np.zeros(3), zero(), np.zeros(1, np.bool_)),
         ends=Ends(
             zero(),
             none_yet(2),
@@ -93,5 +95,5 @@ def fresh_state() -> FilterState:
             np.zeros(2),
             np.zeros(2),
         ),
-        counts=Counts(zero(), zero(), zero(), zero(), zero(), np.zeros(1)),
+        counts=Counts(zero(), zero(), zero(), zero(), zero(), np.zeros(1), np.zeros(1)),
     )

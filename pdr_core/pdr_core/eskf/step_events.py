@@ -38,22 +38,23 @@ def stance_is_over(stamp_ns: int, merge_ns: int, ends: Ends) -> bool:
     return ends.stamp_ns[1] >= 0 and abs(stamp_ns - ends.stamp_ns[1]) > merge_ns
 
 
-def step_taken(ends: Ends) -> StepEvent:
+def step_taken(ends: Ends) -> StepEvent | None:
     """Return the step to the end of the stance noted last, from which the next one begins.
 
-    The first stance of all has no step before it: its event has index 0 and no displacement.
+    The first stance has no step before it: it is where the walk starts, and None is returned.
     """
-    first = ends.stamp_ns[0] < 0
-    step = StepEvent(
-        index=int(ends.index[0]),
-        start_ns=int(ends.stamp_ns[1 if first else 0]),
-        stamp_ns=int(ends.stamp_ns[1]),
-        position_m=ends.position_m[1].copy(),
-        displacement_m=np.zeros(3) if first else ends.position_m[1] - ends.position_m[0],
-        displacement_covariance_m2=np.zeros((3, 3)) if first else ends.displacement_covariance.copy(),
-        yaw_rad=float(ends.yaw_rad[1]),
-        yaw_sd_rad=float(ends.yaw_sd_rad[1]),
-    )
+    step = None
+    if ends.stamp_ns[0] >= 0:
+        step = StepEvent(
+            index=int(ends.index[0]),
+            start_ns=int(ends.stamp_ns[0]),
+            stamp_ns=int(ends.stamp_ns[1]),
+            position_m=ends.position_m[1].copy(),
+            displacement_m=ends.position_m[1] - ends.position_m[0],
+            displacement_covariance_m2=ends.displacement_covariance.copy(),
+            yaw_rad=float(ends.yaw_rad[1]),
+            yaw_sd_rad=float(ends.yaw_sd_rad[1]),
+        )
     begin_next(ends)
     return step
 

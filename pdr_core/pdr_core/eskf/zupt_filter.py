@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from pdr_core.eskf import health
 from pdr_core.eskf.navigate import navigate
 from pdr_core.eskf.settings import settings
 from pdr_core.eskf.state import FilterState, fresh_state
 from pdr_core.eskf.step_events import step_taken
 from pdr_core.params import FilterParams, PlaceParams
-from pdr_core.records import NavBlock, StanceBlock, StepEvent, length
+from pdr_core.records import NavBlock, Notice, StanceBlock, StepEvent, length
 
 
 class ZuptFilter:
@@ -23,12 +24,21 @@ class ZuptFilter:
         while done < length(block):
             done, stance_is_over = navigate(block, done, self._settings, self.state, nav)
             if stance_is_over:
-                steps.append(step_taken(self.state.ends))
+                steps += self._step_taken()
         return nav, steps
 
     def finish(self) -> list[StepEvent]:
         """Return the step that ends in the stance which the recording ends in, if it does."""
-        return [step_taken(self.state.ends)] if self.state.ends.stamp_ns[1] >= 0 else []
+        return self._step_taken() if self.state.ends.stamp_ns[1] >= 0 else []
+
+    def _step_taken(self) -> list[StepEvent]:
+        step = step_taken(self.state.ends)
+        return [step] if step else []
+
+    @property
+    def notices(self) -> list[Notice]:
+        """What was wrong so far."""
+        return health.notices(self.state)
 
     def reset(self) -> None:
         """Forget everything."""

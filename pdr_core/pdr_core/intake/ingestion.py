@@ -44,6 +44,7 @@ class Ingestion:
 
     def _guarded(self, raw: ImuBlock) -> tuple[ImuBlock, Floats]:
         before_ns = self._guard.last_ns[0]
+        raw = ImuBlock(*(np.ascontiguousarray(column) for column in raw))
         faults = admitted(raw, self._limits, self._guard)
         for fault, (kind, level, text) in FAULTS.items():
             self._tally.add_flagged(kind, level, text, faults == fault, raw.stamp_ns)

@@ -1,0 +1,1 @@
+"""One file per sub-command; heavy imports happen when a command runs."""

@@ -1,0 +1,5 @@
+"""`pdr demo`."""
+
+
+def demo() -> None:
+    """x"""

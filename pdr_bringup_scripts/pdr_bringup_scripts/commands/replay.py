@@ -1,0 +1,5 @@
+"""`pdr replay`."""
+
+
+def replay() -> None:
+    """x"""

@@ -1,0 +1,32 @@
+"""`pdr run`: estimates a recording offline, at full speed."""
+
+from pathlib import Path
+
+import typer
+
+
+def run(
+    recording: Path = typer.Argument(help="rosbag2 directory, .mcap, .db3, .csv or .mat"),
+    out: Path = typer.Option(None, "--out", "-o", help="folder for trajectory, strides, result and report"),
+    json: bool = typer.Option(False, "--json", help="print the result as one JSON object"),
+    sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
+    params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
+    columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
+) -> None:
+    """Estimate the walk in a recording, offline and at full speed.
+
+    Example: `pdr run walk.csv --out walk_result` and then open `walk_result/report.html`
+    """
+    from pdr_bringup_scripts.offline import run_recording
+    from pdr_bringup_scripts.terminal import Terminal
+    from pdr_core.evaluation.result import in_words
+    from pdr_core.params import Params
+    from pdr_core.params_file import load_params
+    from pdr_core.recording import open_recording
+
+    chosen = load_params(params) if params else Params()
+    session = open_recording(recording, column_map=columns)
+    result = run_recording(session, chosen, sensor, out, Terminal())
+    print(result.to_json() if json else in_words(result))
+    if out and not json:
+        print(f"Written to {out}: trajectory.tum, strides.csv, result.json, report.html")

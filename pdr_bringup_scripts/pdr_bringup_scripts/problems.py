@@ -1,0 +1,23 @@
+"""What went wrong, in one sentence."""
+
+import sys
+from collections.abc import Callable
+
+from pdr_core.parameter import ParameterError
+from pdr_core.recording import RecordingError
+
+
+class Problem(Exception):
+    """Something that the user can mend; the text says what to do next."""
+
+
+def told(main: Callable[[], object]) -> None:
+    """Call `main`; tell problems on stderr and exit with 2, Ctrl-C with 130."""
+    try:
+        main()
+    except (Problem, ParameterError, RecordingError) as problem:
+        print(f"pdr: {problem}", file=sys.stderr)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        print("pdr: stopped", file=sys.stderr)
+        sys.exit(130)

@@ -1,0 +1,5 @@
+"""Where stages meet: the same chain that the nodes form live."""
+
+from pdr_core.pipeline.foot_inertial import FootInertial, FootOutput
+
+__all__ = ["FootInertial", "FootOutput"]

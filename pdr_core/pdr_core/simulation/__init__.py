@@ -1,0 +1,5 @@
+"""Simulated walks: true motion and the sensor that feels it."""
+
+from pdr_core.simulation.walk import SimulatedWalk, simulated_walk
+
+__all__ = ["SimulatedWalk", "simulated_walk"]
