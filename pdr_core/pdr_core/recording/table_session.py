@@ -52,7 +52,7 @@ def _check_fit(chosen: ColumnMap, table: Table, path: Path, source: Path) -> Non
 
 def _known(path: Path) -> tuple[ColumnMap, Table]:
     maps = known_maps()
-    tables = {rows: open_table(path, rows) for rows in sorted({m.header_rows for m in maps}, reverse=True)}
+    tables = _tables(path, {known.header_rows for known in maps})
     for known in maps:
         if _fits(known.columns(), tables[known.header_rows]):
             return known, tables[known.header_rows]
@@ -62,6 +62,13 @@ def _known(path: Path) -> tuple[ColumnMap, Table]:
     raise RecordingError(
         f"{path} is of no known format, its columns are {_shown(table)}: {HOW_TO_MAP.format(stem=path.stem)}"
     )
+
+
+def _tables(path: Path, header_rows: set[int]) -> dict[int, Table]:
+    """Return the file as a table for every number of header rows; a .mat file has none and is read once."""
+    if path.suffix.lower() == ".mat":
+        return dict.fromkeys(header_rows, open_table(path, 1))
+    return {rows: open_table(path, rows) for rows in header_rows}
 
 
 def _fits(patterns: list[str], table: Table) -> bool:
