@@ -39,15 +39,24 @@ class StanceBlock(NamedTuple):
 
 
 class NavBlock(NamedTuple):
-    """n estimates of one foot in the world frame, with the covariances that nav_msgs/Odometry asks for."""
+    """n estimates of one foot, as nav_msgs/Odometry wants them: pose in the world frame, twist in the foot frame."""
 
     stamp_ns: Stamps  # (n,)
-    position_m: Floats  # (n, 3)
+    position_m: Floats  # (n, 3) in the world frame
     quat_xyzw: Floats  # (n, 4) world from foot
-    velocity_mps: Floats  # (n, 3) in the world frame
-    rate_radps: Floats  # (n, 3) bias-corrected, in the foot frame
+    velocity_mps: Floats  # (n, 3) in the foot frame
+    rate_radps: Floats  # (n, 3) in the foot frame, without bias
     pose_covariance: Floats  # (n, 6, 6) x, y, z, rotation about the world's x, y, z
-    velocity_covariance: Floats  # (n, 3, 3) in the world frame
+    twist_covariance: Floats  # (n, 6, 6) velocity and rate in the foot frame
+
+
+@dataclass(frozen=True)
+class PoseEstimate:
+    """A pose in the world frame, and how well it is known."""
+
+    position_m: Floats  # (3,)
+    quat_xyzw: Floats | None  # (4,); None: unknown
+    covariance: Floats  # (6, 6) x, y, z, rotation about the world's x, y, z
 
 
 @dataclass(frozen=True)
@@ -79,6 +88,39 @@ class StepEvent:
         across = np.array([-np.sin(self.heading_rad), np.cos(self.heading_rad)])
         variance_m2 = float(across @ self.displacement_covariance_m2[:2, :2] @ across)
         return min(np.pi, float(np.sqrt(variance_m2)) / max(self.length_m, 1e-6))
+
+
+class FilterMode(Enum):
+    """What the filter is doing; the values are those of pdr_msgs/FilterHealth."""
+
+    ALIGNING = 0
+    NAVIGATING = 1
+    COASTING = 2  # across a gap, or without the gyro
+
+
+@dataclass(frozen=True)
+class FilterHealth:
+    """How far the filter can be trusted now."""
+
+    mode: FilterMode
+    stamp_ns: int
+    quality: float  # 0 (lost) .. 1
+    samples: int
+    accepted: int  # zero-velocity updates
+    rejected: int
+    gaps: int
+    since_zero_velocity_s: float
+    normalised_innovation: float
+    position_sd_m: float  # horizontal, larger axis
+    height_sd_m: float
+    velocity_sd_mps: float  # largest axis
+    tilt_sd_rad: float  # larger axis
+    yaw_sd_rad: float
+    gyro_bias_radps: Floats  # (3,)
+    gyro_bias_sd_radps: Floats  # (3,)
+    accel_bias_mps2: Floats  # (3,)
+    accel_bias_sd_mps2: Floats  # (3,)
+    gravity_mps2: float
 
 
 class TruthKind(Enum):

@@ -1,8 +1,10 @@
-"""How far the filter can be trusted, in words and in one number."""
+"""How far the filter can be trusted, in words and in numbers."""
 
+import numpy as np
+
+from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.state import FilterState
-from pdr_core.records import Level, Notice
-
+from pdr_core.records import FilterHealth, FilterMode, Level, Notice
 
 LOST_AFTER_S = 5.0  # no step takes so long
 
@@ -10,17 +12,61 @@ LOST_AFTER_S = 5.0  # no step takes so long
 def notices(state: FilterState) -> list[Notice]:
     """Return what a person should know of the filter."""
     counts, start_ns = state.counts, int(state.alignment.start_ns[0])
+    swing_s, released, gaps = counts.longest_swing_s[0], int(counts.released[0]), int(counts.gaps[0])
     found = []
     if state.alignment.moving[0]:
         text = "the foot moved while it was levelled: stand still for the first moments"
         found.append(Notice(Level.WARN, "moving_start", text, 1, start_ns))
-    if counts.released[0]:
-        text = "zero-velocity updates far from the estimate were taken after all: the track was off before them"
-        found.append(Notice(Level.WARN, "gate_released", text, int(counts.released[0]), start_ns))
-    if counts.longest_swing_s[0] > LOST_AFTER_S:
-        text = f"no stance for {counts.longest_swing_s[0]:.0f} s: the track is lost; is the sensor fixed to the shoe?"
+    if released:
+        text = "stances were far from the estimate and taken after all: the track was off before them"
+        found.append(Notice(Level.WARN, "gate_released", text, released, start_ns))
+    if swing_s > LOST_AFTER_S:
+        text = f"no stance for {swing_s:.0f} s: the track is lost; is the sensor fixed to the shoe?"
         found.append(Notice(Level.ERROR, "no_stance", text, 1, start_ns))
-    if counts.gaps[0]:
-        text = "intervals were crossed without navigation: the position was held"
-        found.append(Notice(Level.WARN, "coasted", text, int(counts.gaps[0]), start_ns))
+    if gaps:
+        text = "intervals were not navigated: the position was held across them"
+        found.append(Notice(Level.WARN, "coasted", text, gaps, start_ns))
     return found
+
+
+def judged(state: FilterState) -> FilterHealth:
+    """Return the filter's state in numbers."""
+    n, P, counts = state.nominal, state.P, state.counts
+    sd = np.sqrt(np.diag(P))
+    since_s = float(state.last_ns[0] - state.last_accepted_ns[0]) * 1e-9
+    return FilterHealth(
+        mode=mode(state),
+        stamp_ns=int(state.last_ns[0]),
+        quality=quality(state, since_s),
+        samples=int(counts.samples[0]),
+        accepted=int(counts.accepted[0]),
+        rejected=int(counts.rejected[0]),
+        gaps=int(counts.gaps[0]),
+        since_zero_velocity_s=since_s,
+        normalised_innovation=float(counts.normalised_innovation[0]),
+        position_sd_m=float(np.sqrt(np.linalg.eigvalsh(P[POSITION : POSITION + 2, POSITION : POSITION + 2])[-1])),
+        height_sd_m=float(sd[POSITION + 2]),
+        velocity_sd_mps=float(sd[VELOCITY : VELOCITY + 3].max()),
+        tilt_sd_rad=float(sd[ATTITUDE : ATTITUDE + 2].max()),
+        yaw_sd_rad=float(sd[ATTITUDE + 2]),
+        gyro_bias_radps=n.gyro_bias_radps.copy(),
+        gyro_bias_sd_radps=sd[GYRO_BIAS : GYRO_BIAS + 3],
+        accel_bias_mps2=n.accel_bias_mps2.copy(),
+        accel_bias_sd_mps2=sd[ACCEL_BIAS : ACCEL_BIAS + 3],
+        gravity_mps2=float(state.gravity_mps2[0]),
+    )
+
+
+def mode(state: FilterState) -> FilterMode:
+    """Return what the filter is doing."""
+    if state.alignment.running[0]:
+        return FilterMode.ALIGNING
+    return FilterMode.COASTING if state.coasting[0] else FilterMode.NAVIGATING
+
+
+def quality(state: FilterState, since_zero_velocity_s: float) -> float:
+    """Return the share of stances that agreed with the estimate, fading to 0 while no stance is found."""
+    counts = state.counts
+    agreed = counts.accepted[0] - counts.released[0]
+    share = agreed / max(1, counts.accepted[0] + counts.rejected[0])
+    return float(share * max(0.0, 1.0 - since_zero_velocity_s / LOST_AFTER_S))

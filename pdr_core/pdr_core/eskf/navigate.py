@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.eskf.align import align
-from pdr_core.eskf.error_state import ATTITUDE, POSITION, VELOCITY
+from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
@@ -13,6 +13,8 @@ from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import difference, mean
 from pdr_core.records import NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance
+
+UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
 
 
 @compiled
@@ -32,6 +34,7 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
     state.last_ns[0] = stamp_ns
     state.last_force_mps2[:] = block.imu.accel_mps2[i]
     state.last_rate_radps[:] = block.imu.gyro_radps[i]
+    state.last_gyro_sd_radps[0] = block.imu.gyro_sd_radps[i]
     state.counts.samples[0] += 1
 
 
@@ -41,8 +44,9 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     dt_ns = block.imu.stamp_ns[i] - state.last_ns[0]
     dt_s = dt_ns * 1e-9
     if dt_ns <= 0 or dt_ns > s.gap_ns or block.imu.gyro_sd_radps[i] < 0.0:
-        coast(dt_s if dt_ns > 0 else 1.0, s, state)
+        coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
+    state.coasting[0] = False
     n = state.nominal
     force_before = difference(state.last_force_mps2, n.accel_bias_mps2)
     force_after = difference(block.imu.accel_mps2[i], n.accel_bias_mps2)
@@ -63,26 +67,8 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     """Cross a gap: hold the position, forget the velocity, trust everything less."""
     state.nominal.velocity_mps[:] = 0.0
     cross_gap(state.P, state.ends.cross, dt_s, s.process)
+    state.coasting[0] = True
     state.counts.gaps[0] += 1
-
-
-@compiled
-def write(out: NavBlock, i: int, state: FilterState) -> None:
-    """Write the estimate as sample i of the output."""
-    n, P = state.nominal, state.P
-    out.stamp_ns[i] = state.last_ns[0]
-    for j in range(3):
-        out.position_m[i, j] = n.position_m[j]
-        out.velocity_mps[i, j] = n.velocity_mps[j]
-        out.rate_radps[i, j] = state.last_rate_radps[j] - n.gyro_bias_radps[j]
-        for k in range(3):
-            out.pose_covariance[i, j, k] = P[POSITION + j, POSITION + k]
-            out.pose_covariance[i, j, 3 + k] = P[POSITION + j, ATTITUDE + k]
-            out.pose_covariance[i, 3 + j, k] = P[ATTITUDE + j, POSITION + k]
-            out.pose_covariance[i, 3 + j, 3 + k] = P[ATTITUDE + j, ATTITUDE + k]
-            out.velocity_covariance[i, j, k] = P[VELOCITY + j, VELOCITY + k]
-    for j in range(4):
-        out.quat_xyzw[i, j] = n.quat_xyzw[j]
 
 
 @compiled

@@ -56,6 +56,8 @@ class FilterState(NamedTuple):
     last_ns: Stamps  # (1,) stamp of the last sample; -1: none
     last_force_mps2: Floats  # (3,) as measured
     last_rate_radps: Floats  # (3,) as measured
+    last_gyro_sd_radps: Floats  # (1,)
+    coasting: Flags  # (1,) the last interval was not integrated
     last_accepted_ns: Stamps  # (1,) stamp of the last accepted zero-velocity update; -1: none
     rejecting_since_ns: Stamps  # (1,) -1: not rejecting
     alignment: Alignment
@@ -82,6 +84,8 @@ def fresh_state() -> FilterState:
         last_ns=none_yet(),
         last_force_mps2=np.zeros(3),
         last_rate_radps=np.zeros(3),
+        last_gyro_sd_radps=np.zeros(1),
+        coasting=np.zeros(1, np.bool_),
         last_accepted_ns=none_yet(),
         rejecting_since_ns=none_yet(),
         alignment=Alignment(np.ones(1, np.bool_), none_yet(), np.zeros(3), zero(), np.zeros(1, np.bool_)),

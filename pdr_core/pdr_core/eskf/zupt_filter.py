@@ -3,12 +3,15 @@
 import numpy as np
 
 from pdr_core.eskf import health
+from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, POSITION
 from pdr_core.eskf.navigate import navigate
+from pdr_core.eskf.output import empty_nav
 from pdr_core.eskf.settings import settings
 from pdr_core.eskf.state import FilterState, fresh_state
 from pdr_core.eskf.step_events import step_taken
+from pdr_core.maths.quaternion import yaw_rad
 from pdr_core.params import FilterParams, PlaceParams
-from pdr_core.records import NavBlock, Notice, StanceBlock, StepEvent, length
+from pdr_core.records import FilterHealth, NavBlock, Notice, PoseEstimate, StanceBlock, StepEvent, length
 
 
 class ZuptFilter:
@@ -36,23 +39,26 @@ class ZuptFilter:
         return [step] if step else []
 
     @property
+    def health(self) -> FilterHealth:
+        """How far the filter can be trusted now."""
+        return health.judged(self.state)
+
+    @property
     def notices(self) -> list[Notice]:
         """What was wrong so far."""
         return health.notices(self.state)
 
-    def reset(self) -> None:
-        """Forget everything."""
+    def reset(self, pose: PoseEstimate, keep_biases: bool) -> None:
+        """Start anew at a pose: the foot is levelled there by the next samples, so it should stand still."""
+        before = self.state
+        yaw = yaw_rad(before.nominal.quat_xyzw) if pose.quat_xyzw is None else yaw_rad(pose.quat_xyzw)
+        sd = self._settings.initial_sd.copy()
+        sd[POSITION : POSITION + 3] = np.sqrt(np.diag(pose.covariance)[:3])
+        sd[ATTITUDE + 2] = np.sqrt(pose.covariance[5, 5])
         self.state = fresh_state()
-
-
-def empty_nav(count: int) -> NavBlock:
-    """Return room for `count` estimates."""
-    return NavBlock(
-        np.empty(count, np.int64),
-        np.empty((count, 3)),
-        np.empty((count, 4)),
-        np.empty((count, 3)),
-        np.empty((count, 3)),
-        np.empty((count, 6, 6)),
-        np.empty((count, 3, 3)),
-    )
+        self.state.nominal.position_m[:] = pose.position_m
+        if keep_biases:
+            sd[ACCEL_BIAS:] = np.sqrt(np.diag(before.P)[ACCEL_BIAS:])
+            self.state.nominal.accel_bias_mps2[:] = before.nominal.accel_bias_mps2
+            self.state.nominal.gyro_bias_radps[:] = before.nominal.gyro_bias_radps
+        self._settings = self._settings._replace(initial_yaw_rad=yaw, initial_sd=sd)

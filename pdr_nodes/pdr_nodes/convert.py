@@ -1,0 +1,206 @@
+"""Between messages and records: the only place where the two meet. Stamps are int64 nanoseconds on our side."""
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, Quaternion, TransformStamped, Vector3
+from nav_msgs.msg import Odometry
+from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
+from pdr_msgs.srv import ResetEstimate
+from sensor_msgs.msg import Imu
+
+from pdr_core import records
+from pdr_core.conventions import NANOSECONDS
+from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock
+
+NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
+
+
+def time_message(stamp_ns: int) -> Time:
+    """Return a stamp as a message."""
+    return Time(sec=stamp_ns // NANOSECONDS, nanosec=stamp_ns % NANOSECONDS)
+
+
+def stamp_ns(time: Time) -> int:
+    """Return a stamp [ns]."""
+    return time.sec * NANOSECONDS + time.nanosec
+
+
+def vector(v: Floats) -> Vector3:
+    """Return three numbers as a message."""
+    return Vector3(x=float(v[0]), y=float(v[1]), z=float(v[2]))
+
+
+def numbers(v: Vector3) -> list[float]:
+    """Return a message as three numbers."""
+    return [v.x, v.y, v.z]
+
+
+def isotropic(sd: float) -> Floats:
+    """Return a covariance, (9,) row major, of equal deviations; -1 first where there is no measurement."""
+    if sd < 0.0:
+        return np.array([NOT_MEASURED] + [0.0] * 8)
+    return np.diag([sd**2] * 3).ravel()
+
+
+def deviation(covariance: Floats) -> float:
+    """Return the standard deviation of one axis, -1 where there is no measurement."""
+    return -1.0 if covariance[0] == NOT_MEASURED else float(np.sqrt(max(covariance[0], 0.0)))
+
+
+def imu_message(block: ImuBlock, i: int, frame_id: str) -> Imu:
+    """Return sample i of a block. The orientation is not measured."""
+    message = Imu()
+    message.header.stamp = time_message(int(block.stamp_ns[i]))
+    message.header.frame_id = frame_id
+    message.orientation_covariance = isotropic(NOT_MEASURED)
+    message.angular_velocity = vector(block.gyro_radps[i])
+    message.angular_velocity_covariance = isotropic(float(block.gyro_sd_radps[i]))
+    message.linear_acceleration = vector(block.accel_mps2[i])
+    message.linear_acceleration_covariance = isotropic(float(block.accel_sd_mps2[i]))
+    return message
+
+
+def imu_block(message: Imu) -> ImuBlock:
+    """Return a message as a block of one sample; rates that were not measured are zero."""
+    gyro_sd = deviation(message.angular_velocity_covariance)
+    return ImuBlock(
+        np.array([stamp_ns(message.header.stamp)]),
+        np.array([numbers(message.angular_velocity)]) if gyro_sd >= 0.0 else np.zeros((1, 3)),
+        np.array([numbers(message.linear_acceleration)]),
+        np.array([gyro_sd]),
+        np.array([deviation(message.linear_acceleration_covariance)]),
+    )
+
+
+def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
+    """Return sample i of a block with its verdict."""
+    message = StanceImu(imu=imu_message(block.imu, i, frame_id))
+    message.magnetic_field.magnetic_field_covariance = isotropic(NOT_MEASURED)
+    message.stance = bool(block.stance[i])
+    message.statistic = finite(block.statistic[i])
+    message.threshold = float(block.threshold[i])
+    message.rest_ended = bool(block.rest_sd_radps[i] > 0.0)
+    message.rest_rate = vector(block.rest_rate_radps[i])
+    message.rest_rate_stddev = float(block.rest_sd_radps[i])
+    return message
+
+
+def finite(value: float) -> float:
+    """Return the value, or the largest number in place of infinity."""
+    return float(min(value, np.finfo(np.float64).max))
+
+
+def stance_block(message: StanceImu) -> StanceBlock:
+    """Return a message as a block of one sample."""
+    return StanceBlock(
+        imu_block(message.imu),
+        np.array([message.stance]),
+        np.array([message.statistic]),
+        np.array([message.threshold]),
+        np.array([numbers(message.rest_rate)]),
+        np.array([message.rest_rate_stddev]),
+    )
+
+
+def odometry_message(nav: NavBlock, i: int, world_frame: str, foot_frame: str) -> Odometry:
+    """Return estimate i: the pose in the world frame, the twist in the foot frame (REP-103, REP-105)."""
+    message = Odometry()
+    message.header.stamp = time_message(int(nav.stamp_ns[i]))
+    message.header.frame_id = world_frame
+    message.child_frame_id = foot_frame
+    position = message.pose.pose.position
+    position.x, position.y, position.z = nav.position_m[i].tolist()
+    message.pose.pose.orientation = quaternion_message(nav.quat_xyzw[i])
+    message.pose.covariance = nav.pose_covariance[i].ravel()
+    message.twist.twist.linear = vector(nav.velocity_mps[i])
+    message.twist.twist.angular = vector(nav.rate_radps[i])
+    message.twist.covariance = nav.twist_covariance[i].ravel()
+    return message
+
+
+def quaternion_message(xyzw: Floats) -> Quaternion:
+    """Return a quaternion as a message."""
+    x, y, z, w = xyzw.tolist()
+    return Quaternion(x=x, y=y, z=z, w=w)
+
+
+def step_message(step: records.StepEvent, world_frame: str, foot_frame: str) -> StepEvent:
+    """Return a step as a message."""
+    message = StepEvent()
+    message.header.stamp = time_message(step.stamp_ns)
+    message.header.frame_id = world_frame
+    message.child_frame_id = foot_frame
+    message.index = step.index
+    message.start = time_message(step.start_ns)
+    message.position.x, message.position.y, message.position.z = step.position_m.tolist()
+    message.displacement = vector(step.displacement_m)
+    message.displacement_covariance = step.displacement_covariance_m2.ravel()
+    message.length = step.length_m
+    message.heading = step.heading_rad
+    message.heading_stddev = step.heading_sd_rad
+    message.yaw = step.yaw_rad
+    message.yaw_stddev = step.yaw_sd_rad
+    return message
+
+
+def transform_message(odometry: Odometry) -> TransformStamped:
+    """Return the pose of an odometry message as a transform."""
+    message = TransformStamped(header=odometry.header, child_frame_id=odometry.child_frame_id)
+    pose = odometry.pose.pose
+    message.transform.translation.x = pose.position.x
+    message.transform.translation.y = pose.position.y
+    message.transform.translation.z = pose.position.z
+    message.transform.rotation = pose.orientation
+    return message
+
+
+def health_message(
+    health: records.FilterHealth, notices: list[records.Notice], world_frame: str, foot_frame: str
+) -> FilterHealth:
+    """Return the filter's health as a message."""
+    message = FilterHealth(child_frame_id=foot_frame, state=health.mode.value)
+    message.header.stamp = time_message(health.stamp_ns)
+    message.header.frame_id = world_frame
+    message.nav_quality = health.quality
+    message.samples = health.samples
+    message.zero_velocity_updates = health.accepted
+    message.zero_velocity_rejections = health.rejected
+    message.gaps = health.gaps
+    message.since_zero_velocity = health.since_zero_velocity_s
+    message.normalised_innovation = health.normalised_innovation
+    message.position_stddev = health.position_sd_m
+    message.height_stddev = health.height_sd_m
+    message.velocity_stddev = health.velocity_sd_mps
+    message.tilt_stddev = health.tilt_sd_rad
+    message.yaw_stddev = health.yaw_sd_rad
+    message.gyro_bias = vector(health.gyro_bias_radps)
+    message.gyro_bias_stddev = vector(health.gyro_bias_sd_radps)
+    message.accel_bias = vector(health.accel_bias_mps2)
+    message.accel_bias_stddev = vector(health.accel_bias_sd_mps2)
+    message.gravity = health.gravity_mps2
+    message.notices = [notice.text for notice in notices]
+    return message
+
+
+def pose_of_reset(request: ResetEstimate.Request) -> records.PoseEstimate:
+    """Return the pose that a reset asks for; ValueError if it holds something that is not a pose."""
+    position, q = request.pose.pose.position, request.pose.pose.orientation
+    position_m = np.array([position.x, position.y, position.z])
+    xyzw = np.array([q.x, q.y, q.z, q.w])
+    covariance = np.array(request.pose.covariance).reshape(6, 6)
+    if not (np.isfinite(position_m).all() and np.isfinite(xyzw).all() and np.isfinite(covariance).all()):
+        raise ValueError("the pose holds NaN or infinity")
+    if (np.diag(covariance) < 0.0).any():
+        raise ValueError("the covariance has a negative diagonal")
+    length = float(np.linalg.norm(xyzw))
+    return records.PoseEstimate(position_m, xyzw / length if length > 0.0 else None, covariance)
+
+
+def point_message(stamp_ns: int, position_m: Floats, frame_id: str) -> PoseStamped:
+    """Return a position as a pose without rotation."""
+    message = PoseStamped()
+    message.header.stamp = time_message(stamp_ns)
+    message.header.frame_id = frame_id
+    message.pose.position.x, message.pose.position.y, message.pose.position.z = position_m.tolist()
+    message.pose.orientation.w = 1.0
+    return message

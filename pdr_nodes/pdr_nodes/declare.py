@@ -1,0 +1,51 @@
+"""ROS parameters from `pdr_core.params`: declared with text, unit and bounds, read once, checked at the start."""
+
+from typing import Any
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.node import Node
+
+from pdr_core.parameter import ParameterError, meta
+from pdr_core.params import GROUPS, Params, params_from_mapping
+
+ROS_OWN = ("use_sim_time", "start_type_description_service", "qos_overrides")
+
+
+def read_params(node: Node, groups: tuple[str, ...]) -> Params:
+    """Return the parameters of these groups; those that the user did not give are declared with their defaults.
+
+    The node is made with `automatically_declare_parameters_from_overrides`, so what the user gave is declared
+    already. One file serves all nodes: values of other groups are checked too, but not declared.
+    """
+    given = {n: p.value for n, p in node.get_parameters_by_prefix("").items() if n.split(".")[0] not in ROS_OWN}
+    params = params_from_mapping(nested(given))
+    for group in groups:
+        for field in GROUPS[group].__dataclass_fields__.values():
+            name = f"{group}.{field.name}"
+            if not node.has_parameter(name):
+                node.declare_parameter(name, field.default, descriptor(field))
+    return params
+
+
+def nested(dotted: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return {'group.name': value} as {group: {name: value}}."""
+    groups: dict[str, dict[str, Any]] = {}
+    for name, value in dotted.items():
+        group, dot, rest = name.partition(".")
+        if not dot:
+            raise ParameterError(f"{name}: unknown parameter; parameters are group.name, see `pdr params`")
+        groups.setdefault(group, {})[rest] = value
+    return groups
+
+
+def descriptor(field: Any) -> ParameterDescriptor:
+    """Return what ROS tools show of a parameter."""
+    known = meta(field)
+    out = ParameterDescriptor(description=known.doc, additional_constraints=known.allowed, read_only=True)
+    if known.bounds and isinstance(field.default, float):
+        low, high = map(float, known.bounds)
+        out.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    elif known.bounds:
+        low_int, high_int = map(int, known.bounds)
+        out.integer_range = [IntegerRange(from_value=low_int, to_value=high_int)]
+    return out

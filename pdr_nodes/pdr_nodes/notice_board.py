@@ -1,0 +1,44 @@
+"""Tells people what is wrong: once in the log, and every second on /diagnostics."""
+
+from collections.abc import Callable
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.node import Node
+
+from pdr_core.records import Level, Notice
+from pdr_nodes.qos import STATUS
+
+PERIOD_S = 1.0
+
+
+class NoticeBoard:
+    """Publishes the notices of a stage; REP-107 names it `node: what`."""
+
+    def __init__(self, node: Node, what: str, notices: Callable[[], list[Notice]]) -> None:
+        self._node = node
+        self._name = f"{node.get_name()}: {what}"
+        self._notices = notices
+        self._told: set[str] = set()
+        self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", STATUS)
+        self._timer = node.create_timer(PERIOD_S, self._publish)
+
+    def _publish(self) -> None:
+        notices = self._notices()
+        for notice in notices:
+            self._log_once(notice)
+        message = DiagnosticArray(status=[self._status(notices)])
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(message)
+
+    def _log_once(self, notice: Notice) -> None:
+        if notice.kind not in self._told:
+            self._told.add(notice.kind)
+            logger = self._node.get_logger()
+            (logger.error if notice.level is Level.ERROR else logger.warning)(notice.text)
+
+    def _status(self, notices: list[Notice]) -> DiagnosticStatus:
+        worst = max(notices, key=lambda n: n.level.value, default=None)
+        status = DiagnosticStatus(name=self._name, message=worst.text if worst else "as it should be")
+        status.level = bytes([worst.level.value if worst else 0])
+        status.values = [KeyValue(key=n.kind, value=f"{n.count} times: {n.text}") for n in notices]
+        return status
