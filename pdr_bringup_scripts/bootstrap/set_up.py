@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from bootstrap import messages, python_packages, ros, stamp, system_packages
 from bootstrap.environment import clean_environment, launch_environment
 from bootstrap.layout import Layout
-from bootstrap.progress import Progress
+from bootstrap.progress import Progress, SetupError
 
 FIRST_IMPORTS = (
     "numba, scipy.linalg, scipy.signal, scipy.spatial.transform, rosbags.highlevel, mcap.reader, "
@@ -27,7 +27,7 @@ def set_up(layout: Layout, inherited: Mapping[str, str]) -> None:
         if not scope:
             return
         progress = Progress(layout.log, lock)
-        progress.say(f"setting up: {reason}; takes a minute or two, details in {layout.log}")
+        progress.say(f"setting up: {reason}; takes two or three minutes, details in {layout.log}")
         if scope == stamp.EVERYTHING:
             _make_environment(layout, inherited, progress)
         _make_messages(layout, inherited, progress)
@@ -73,7 +73,10 @@ def _warm_up(layout: Layout, inherited: Mapping[str, str], progress: Progress) -
         return
     progress.say("compiling the numeric functions")
     command = [str(layout.python), "-m", "pdr_core.warmup"]
-    progress.run(command, _environment(layout, inherited), "pdr_core.warmup failed")
+    try:
+        progress.run(command, _environment(layout, inherited), "they do not compile")
+    except SetupError as error:  # the command itself will say what is wrong with them
+        progress.say(str(error))
 
 
 def _environment(layout: Layout, inherited: Mapping[str, str]) -> dict[str, str]:

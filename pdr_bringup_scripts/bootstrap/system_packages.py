@@ -52,7 +52,9 @@ def ensure(python: str, environment: Mapping[str, str], progress: Progress) -> N
     if not packages:
         return
     if os.geteuid() != 0 or not shutil.which("apt-get"):
-        raise SetupError(f"the system lacks {', '.join(packages)}; {install_command(packages)}")
+        raise SetupError(
+            f"the system lacks {', '.join(packages)}; install with: {install_command(packages)}"
+        )
     _install(packages, environment, progress)
     still = missing(python, environment)
     if still:
@@ -63,7 +65,7 @@ def _install(packages: list[str], environment: Mapping[str, str], progress: Prog
     """Let apt-get fetch its lists and install these packages."""
     progress.say(f"installing {', '.join(packages)} with apt-get")
     quiet = {**environment, "DEBIAN_FRONTEND": "noninteractive"}
-    failure = f"apt-get could not install {', '.join(packages)}; {install_command(packages)}"
+    failure = f"apt-get could not install {', '.join(packages)}"
     progress.run(["apt-get", "update"], quiet, failure)
     options = ["install", "--yes", "--no-install-recommends"]
     progress.run(["apt-get", *options, *packages], quiet, failure)
