@@ -214,3 +214,10 @@ def params_from_mapping(mapping: Mapping[str, Mapping[str, Any]]) -> Params:
 def params_as_mapping(params: Params) -> dict[str, dict[str, Any]]:
     """Return the parameters as {group: {name: value}}."""
     return asdict(params)
+
+
+def changed(params: Params, group: str, **values: Any) -> Params:
+    """Return the parameters with some of a group changed; ParameterError if a value is not allowed."""
+    mapping = params_as_mapping(params)
+    mapping[group] |= values
+    return params_from_mapping(mapping)

@@ -2,7 +2,7 @@
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import PoseStamped, Quaternion, TransformStamped, Vector3
+from geometry_msgs.msg import Point, PoseStamped, Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
 from pdr_msgs.srv import ResetEstimate
@@ -30,7 +30,7 @@ def vector(v: Floats) -> Vector3:
     return Vector3(x=float(v[0]), y=float(v[1]), z=float(v[2]))
 
 
-def numbers(v: Vector3) -> list[float]:
+def numbers(v: Vector3 | Point) -> list[float]:
     """Return a message as three numbers."""
     return [v.x, v.y, v.z]
 
@@ -118,6 +118,20 @@ def odometry_message(nav: NavBlock, i: int, world_frame: str, foot_frame: str) -
     return message
 
 
+def nav_block(message: Odometry) -> NavBlock:
+    """Return an estimate as a block of one."""
+    p, q, twist = message.pose.pose.position, message.pose.pose.orientation, message.twist.twist
+    return NavBlock(
+        np.array([stamp_ns(message.header.stamp)]),
+        np.array([numbers(p)]),
+        np.array([[q.x, q.y, q.z, q.w]]),
+        np.array([numbers(twist.linear)]),
+        np.array([numbers(twist.angular)]),
+        np.array(message.pose.covariance).reshape(1, 6, 6),
+        np.array(message.twist.covariance).reshape(1, 6, 6),
+    )
+
+
 def quaternion_message(xyzw: Floats) -> Quaternion:
     """Return a quaternion as a message."""
     x, y, z, w = xyzw.tolist()
@@ -141,6 +155,20 @@ def step_message(step: records.StepEvent, world_frame: str, foot_frame: str) -> 
     message.yaw = step.yaw_rad
     message.yaw_stddev = step.yaw_sd_rad
     return message
+
+
+def step_event(message: StepEvent) -> records.StepEvent:
+    """Return a message as a step."""
+    return records.StepEvent(
+        index=message.index,
+        start_ns=stamp_ns(message.start),
+        stamp_ns=stamp_ns(message.header.stamp),
+        position_m=np.array(numbers(message.position)),
+        displacement_m=np.array(numbers(message.displacement)),
+        displacement_covariance_m2=np.array(message.displacement_covariance).reshape(3, 3),
+        yaw_rad=message.yaw,
+        yaw_sd_rad=message.yaw_stddev,
+    )
 
 
 def transform_message(odometry: Odometry) -> TransformStamped:

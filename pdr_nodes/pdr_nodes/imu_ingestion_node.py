@@ -5,6 +5,7 @@ from sensor_msgs.msg import Imu
 
 from pdr_core.intake import Ingestion
 from pdr_core.records import length
+from pdr_core.warmup import warm_up
 from pdr_nodes.convert import imu_block, imu_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.notice_board import NoticeBoard
@@ -18,6 +19,7 @@ class ImuIngestionNode(Node):
     def __init__(self) -> None:
         super().__init__("imu_ingestion", automatically_declare_parameters_from_overrides=True)
         params = read_params(self, ("intake", "node"))
+        warm_up()
         self._intake = Ingestion(params.intake)
         self._frame_id = params.node.foot_frame
         self._publisher = self.create_publisher(Imu, "imu/data", OWN)

@@ -40,5 +40,15 @@ class NoticeBoard:
         worst = max(notices, key=lambda n: n.level.value, default=None)
         status = DiagnosticStatus(name=self._name, message=worst.text if worst else "as it should be")
         status.level = bytes([worst.level.value if worst else 0])
-        status.values = [KeyValue(key=n.kind, value=f"{n.count} times: {n.text}") for n in notices]
+        status.values = [KeyValue(key=n.kind, value=f"{n.count} x {n.text}") for n in notices]
         return status
+
+
+def notices_from(status: DiagnosticStatus) -> list[Notice]:
+    """Return the notices of a status that a board has published."""
+    level = Level(status.level[0] if isinstance(status.level, bytes) else status.level)
+    found = []
+    for item in status.values:
+        count, _, text = item.value.partition(" x ")
+        found.append(Notice(level, item.key, text, int(count), 0))
+    return found

@@ -6,6 +6,7 @@ from sensor_msgs.msg import Imu
 
 from pdr_core.records import StanceBlock, length
 from pdr_core.stance import StanceDetection
+from pdr_core.warmup import warm_up
 from pdr_nodes.convert import imu_block, stance_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch
@@ -19,6 +20,7 @@ class StanceDetectorNode(Node):
     def __init__(self) -> None:
         super().__init__("stance_detector", automatically_declare_parameters_from_overrides=True)
         params = read_params(self, ("stance", "place", "node"))
+        warm_up()
         self._stance = StanceDetection(params.stance, params.place)
         self._frame_id = params.node.foot_frame
         self._publisher = self.create_publisher(StanceImu, "stance", OWN)

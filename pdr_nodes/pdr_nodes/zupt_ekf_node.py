@@ -8,6 +8,7 @@ from rclpy.node import Node
 from pdr_core.eskf import ZuptFilter
 from pdr_core.records import StepEvent as Step
 from pdr_core.records import length
+from pdr_core.warmup import warm_up
 from pdr_nodes.convert import health_message, odometry_message, pose_of_reset, stance_block, step_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch
@@ -25,6 +26,7 @@ class ZuptEkfNode(Node):
     def __init__(self) -> None:
         super().__init__("zupt_ekf", automatically_declare_parameters_from_overrides=True)
         params = read_params(self, ("filter", "place", "node"))
+        warm_up()
         self._frames = params.node.world_frame, params.node.foot_frame
         self._filter = ZuptFilter(params.filter, params.place)
         self._odom = self.create_publisher(Odometry, "odom", OWN)

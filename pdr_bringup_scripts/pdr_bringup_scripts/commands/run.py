@@ -17,6 +17,7 @@ def run(
 
     Example: `pdr run walk.csv --out walk_result` and then open `walk_result/report.html`
     """
+    from pdr_bringup_scripts.book import FILES
     from pdr_bringup_scripts.offline import run_recording
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.evaluation.result import in_words
@@ -29,4 +30,4 @@ def run(
     result = run_recording(session, chosen, sensor, out, Terminal())
     print(result.to_json() if json else in_words(result))
     if out and not json:
-        print(f"Written to {out}: trajectory.tum, strides.csv, result.json, report.html")
+        print(f"Written to {out}: {FILES}")

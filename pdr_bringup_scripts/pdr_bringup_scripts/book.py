@@ -1,0 +1,100 @@
+"""Keeps of a run what its result, its report and its files need, in bounded memory."""
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TextIO
+
+from pdr_bringup_scripts.problems import Problem
+from pdr_bringup_scripts.provenance import VERSION, commit
+from pdr_core.evaluation.report import write_report
+from pdr_core.evaluation.result import Result
+from pdr_core.evaluation.score import Scorer
+from pdr_core.evaluation.trace import Trace
+from pdr_core.params import Params, params_as_mapping
+from pdr_core.pipeline import FootOutput
+from pdr_core.recording import Sensor, Session
+from pdr_core.recording.strides import write_strides
+from pdr_core.recording.tum import Trajectory, append_tum, write_tum_header
+from pdr_core.records import Floats, Notice, StepEvent, length
+
+FILES = "trajectory.tum, strides.csv, result.json, report.html"
+
+
+def make_folder(path: Path) -> None:
+    """Create a folder, or say why that cannot be done."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Problem(f"cannot write to {path}: {error.strerror}") from error
+
+
+class Book:
+    """Takes every output of a run once; `out` is where its files go, None: nowhere."""
+
+    def __init__(self, session: Session, sensor: Sensor, out: Path | None, stack: ExitStack) -> None:
+        self._session = session
+        self._scorer = Scorer(sensor.truth)
+        self._trace = Trace()
+        self._out = out
+        self._trajectory: TextIO | None = None
+        self._first_ns, self._last_ns = -1, -1
+        self.steps: list[StepEvent] = []
+        if out:
+            make_folder(out)
+            self._trajectory = stack.enter_context((out / "trajectory.tum").open("w"))
+            write_tum_header(self._trajectory)
+
+    def keep(self, output: FootOutput) -> None:
+        """Take the next estimates and steps."""
+        nav = output.nav
+        self.steps += output.steps
+        if not length(nav):
+            return
+        self._first_ns = int(nav.stamp_ns[0]) if self._first_ns < 0 else self._first_ns
+        self._last_ns = int(nav.stamp_ns[-1])
+        self._scorer.add(nav)
+        self._trace.add(output.judged, nav)
+        if self._trajectory:
+            append_tum(self._trajectory, Trajectory(nav.stamp_ns, nav.position_m, nav.quat_xyzw))
+
+    @property
+    def duration_s(self) -> float:
+        """Time [s] from the first to the last estimate."""
+        return (self._last_ns - self._first_ns) * 1e-9
+
+    @property
+    def _start_position_m(self) -> Floats:
+        first = self.steps[0] if self.steps else None
+        return first.position_m - first.displacement_m if first else self._scorer.start_position_m
+
+    def close(self, pipeline: str, params: Params, samples: int, seconds: float, notices: list[Notice]) -> Result:
+        """Return the result and write the files; Problem if there was no usable sample."""
+        if self._first_ns < 0:
+            raise Problem(f"{self._session.path} holds no usable sample: {'; '.join(n.text for n in notices)}")
+        result = Result(
+            recording=str(self._session.path),
+            format=self._session.format,
+            samples=samples,
+            duration_s=self.duration_s,
+            pipeline=pipeline,
+            strides=len(self.steps),
+            distance_m=float(sum(step.length_m for step in self.steps)),
+            end_position_m=self._scorer.end_position_m,
+            closure_2d_m=self._scorer.closure_2d_m,
+            closure_3d_m=self._scorer.closure_3d_m,
+            seconds=seconds,
+            notices=[*self._session.notices, *notices],
+            config=params_as_mapping(params),
+            truth=self._scorer.score(self.steps, self._start_position_m),
+            version=VERSION,
+            commit=commit(),
+        )
+        if self._out:
+            self._write_files(self._out, result)
+        return result
+
+    def _write_files(self, out: Path, result: Result) -> None:
+        write_strides(out / "strides.csv", self.steps)
+        (out / "result.json").write_text(result.to_json() + "\n")
+        view = self._scorer.view(self.steps, self._start_position_m)
+        write_report(out / "report.html", result, self._trace, self.steps, view)

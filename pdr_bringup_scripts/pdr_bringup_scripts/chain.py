@@ -1,0 +1,83 @@
+"""Starts the nodes of one foot as separate processes, together, and ends them together."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from types import TracebackType
+
+import yaml
+
+from pdr_bringup_scripts.problems import Problem
+
+NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
+DRIVER = "imu_driver"
+QUICK_DISCOVERY = Path(__file__).with_name("fastdds_quick.xml")
+GRACE_S = 5.0
+
+
+class Chain:
+    """A context manager: the processes run while the block does. Their output goes to `folder`."""
+
+    def __init__(self, folder: Path, parameters: dict[str, dict[str, object]]) -> None:
+        self._folder = folder
+        self._parameters = folder / "parameters.yaml"
+        self._content = {"/**": {"ros__parameters": parameters}}
+        self._processes: dict[str, subprocess.Popen] = {}
+
+    def __enter__(self) -> "Chain":
+        """Start all nodes at once: so they find each other within a moment."""
+        self._folder.mkdir(parents=True, exist_ok=True)
+        self._parameters.write_text(yaml.safe_dump(self._content, sort_keys=False))
+        for name in (*NODES, DRIVER):
+            self._processes[name] = self._start(name)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """End them as Ctrl-C would."""
+        for process in self._processes.values():
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        for process in self._processes.values():
+            try:
+                process.wait(GRACE_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+    @property
+    def driver_is_done(self) -> bool:
+        """The driver has delivered everything and ended."""
+        return self._processes[DRIVER].poll() is not None
+
+    def check(self) -> None:
+        """Raise a Problem if a node has died."""
+        for name, process in self._processes.items():
+            if process.poll() not in (None, 0):
+                raise Problem(f"{name} has failed: {self._last_words(name)}")
+
+    def _start(self, name: str) -> subprocess.Popen:
+        command = [sys.executable, "-m", f"pdr_nodes.{name}_node", "--ros-args"]
+        command += ["--params-file", str(self._parameters), "--log-level", "warn"]
+        with (self._folder / f"{name}.log").open("w") as log:
+            return subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT)
+
+    def _last_words(self, name: str) -> str:
+        lines = (self._folder / f"{name}.log").read_text().strip().splitlines()
+        return lines[-1].removeprefix("pdr: ") if lines else f"see {self._folder}"
+
+
+def stay_on_this_machine(logs: Path, domain: int | None) -> None:
+    """Set the environment of this process and its children; what the user has set himself stays as it is."""
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    os.environ.setdefault("ROS_LOG_DIR", str(logs))
+    os.environ.setdefault("FASTRTPS_DEFAULT_PROFILES_FILE", str(QUICK_DISCOVERY))
+    if domain is not None:
+        os.environ.setdefault("ROS_DOMAIN_ID", str(domain))
+
+
+def private_domain() -> int:
+    """Return a ROS domain that other runs on this machine hardly use."""
+    return 1 + os.getpid() % 100

@@ -1,0 +1,79 @@
+"""Listens to a running chain: records its topics and keeps the latest of each."""
+
+import importlib
+from collections.abc import Callable
+from pathlib import Path
+
+import rclpy
+from ament_index_python.packages import get_package_share_directory
+from rclpy.experimental.events_executor import EventsExecutor
+from rclpy.node import Node
+from rclpy.serialization import deserialize_message
+
+from pdr_core.recording.bag_writer import BagWriter
+from pdr_nodes.qos import OWN, STATUS
+
+TOPICS = {
+    "imu/data_raw": "sensor_msgs/msg/Imu",
+    "ground_truth": "geometry_msgs/msg/PoseStamped",
+    "stance": "pdr_msgs/msg/StanceImu",
+    "odom": "nav_msgs/msg/Odometry",
+    "step": "pdr_msgs/msg/StepEvent",
+    "filter_health": "pdr_msgs/msg/FilterHealth",
+    "diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
+}
+STATUS_TOPICS = ("filter_health", "diagnostics")  # go on while there are no samples
+
+
+class Listener(Node):
+    """Subscribes to everything that a run says; `take` gets each message with its topic."""
+
+    def __init__(self, take: Callable[[str, str, bytes], None]) -> None:
+        super().__init__("pdr_listener")
+        for topic, name in TOPICS.items():
+            qos = STATUS if topic in STATUS_TOPICS else OWN
+            address = "/diagnostics" if topic == "diagnostics" else topic
+            self.create_subscription(message_class(name), address, self._to(take, topic, name), qos, raw=True)
+
+    @staticmethod
+    def _to(take: Callable[[str, str, bytes], None], topic: str, name: str) -> Callable[[bytes], None]:
+        return lambda cdr: take(topic, name, cdr)
+
+
+class Ears:
+    """A context manager around a listener, spun by `listen`."""
+
+    def __init__(self, take: Callable[[str, str, bytes], None]) -> None:
+        self._take = take
+
+    def __enter__(self) -> "Ears":
+        """Join the graph."""
+        rclpy.init()
+        self._executor = EventsExecutor()
+        self._executor.add_node(Listener(self._take))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the graph."""
+        rclpy.try_shutdown()
+
+    def listen(self, timeout_s: float) -> None:
+        """Serve what comes within a time."""
+        self._executor.spin_once(timeout_sec=timeout_s)
+
+
+def message_class(name: str) -> type:
+    """Return the class of 'package/msg/Name'."""
+    package, _, message = name.split("/")
+    return getattr(importlib.import_module(f"{package}.msg"), message)
+
+
+def message(name: str, cdr: bytes) -> object:
+    """Return serialised bytes as a message."""
+    return deserialize_message(cdr, message_class(name))
+
+
+def bag_writer(path: Path) -> BagWriter:
+    """Return a writer that knows our own messages."""
+    folder = Path(get_package_share_directory("pdr_msgs")) / "msg"
+    return BagWriter(path, {f"pdr_msgs/msg/{p.stem}": p.read_text() for p in sorted(folder.glob("*.msg"))})

@@ -1,0 +1,90 @@
+"""Runs the nodes on a device, records what they say, and judges the recording."""
+
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+from pdr_bringup_scripts.book import Book, make_folder
+from pdr_bringup_scripts.chain import Chain, stay_on_this_machine
+from pdr_bringup_scripts.listener import STATUS_TOPICS, Ears, bag_writer, message
+from pdr_bringup_scripts.live_recording import notices, outputs
+from pdr_bringup_scripts.problems import Problem
+from pdr_bringup_scripts.terminal import Terminal
+from pdr_core.evaluation.result import Result
+from pdr_core.params import Params, params_as_mapping
+from pdr_core.recording import open_recording
+from pdr_core.records import length
+from pdr_core.warmup import warm_up
+
+PIPELINE = "foot_inertial, live"
+BAG = "recording"
+QUIET_S = 2.5  # the nodes give out what waits after one second each without samples
+NOTHING_S = 30.0
+SHOW_EVERY = 20  # odometry messages
+
+
+def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal) -> Result:
+    """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`."""
+    make_folder(out)
+    params = replace(params, node=replace(params.node, input_reliable=True))  # the driver is ours
+    warm_up()  # so that the nodes need not compile, each for itself
+    begin = time.monotonic()
+    record(params, out, domain, terminal)
+    return judge(params, out, time.monotonic() - begin)
+
+
+def record(params: Params, out: Path, domain: int | None, terminal: Terminal) -> None:
+    """Run the nodes and write all they say to a bag."""
+    stay_on_this_machine(out / "nodes", domain)
+    with ExitStack() as stack:
+        show = stack.enter_context(terminal.progress("Walking"))
+        bag = stack.enter_context(bag_writer(out / BAG))
+        watch = Watch(bag.write, show)
+        ears = stack.enter_context(Ears(watch.take))
+        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params)))
+        while not (chain.driver_is_done and watch.quiet_s > QUIET_S):
+            ears.listen(0.1)
+            chain.check()
+            if watch.quiet_s > NOTHING_S:
+                raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
+
+
+class Watch:
+    """Passes every message on to the recording and shows where the foot is."""
+
+    def __init__(self, write: Callable[[str, str, int, bytes], None], show: Callable[[str], None]) -> None:
+        self._write = write
+        self._show = show
+        self._last_s = time.monotonic()
+        self._odometry = 0
+        self._steps = 0
+
+    @property
+    def quiet_s(self) -> float:
+        """How long ago [s] the last message came."""
+        return time.monotonic() - self._last_s
+
+    def take(self, topic: str, name: str, cdr: bytes) -> None:
+        """Take one message."""
+        self._write(f"/{topic}", name, time.time_ns(), cdr)
+        if topic not in STATUS_TOPICS:
+            self._last_s = time.monotonic()
+        self._steps += topic == "step"
+        self._odometry += topic == "odom"
+        if topic == "odom" and self._odometry % SHOW_EVERY == 0:
+            p = message(name, cdr).pose.pose.position  # type: ignore[attr-defined]
+            self._show(f"{self._steps} strides, now at x {p.x:+.2f} m, y {p.y:+.2f} m, height {p.z:+.2f} m")
+
+
+def judge(params: Params, out: Path, seconds: float) -> Result:
+    """Compare what the nodes said with the truth they recorded, and write the files of the run."""
+    session = open_recording(out / BAG)
+    (sensor,) = session.sensors.values()
+    with ExitStack() as stack:
+        book = Book(session, sensor, out, stack)
+        for output in outputs(out / BAG):
+            book.keep(output)
+        samples = sum(length(piece) for piece in sensor.pieces())
+        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG))

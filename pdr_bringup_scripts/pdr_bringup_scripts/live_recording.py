@@ -1,0 +1,44 @@
+"""Reads what the nodes have said back from a recording."""
+
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pdr_core.pipeline import FootOutput
+from pdr_core.records import Notice, joined
+from pdr_nodes.convert import nav_block, stance_block, step_event
+from pdr_nodes.notice_board import notices_from
+
+PIECE = 5000
+
+
+def outputs(bag: Path) -> Iterator[FootOutput]:
+    """Yield the estimates in pieces, and all steps with the first piece."""
+    steps = [step_event(m) for m in messages(bag, "step")]
+    pairs = zip(messages(bag, "stance"), messages(bag, "odom"), strict=False)
+    while piece := list(islice(pairs, PIECE)):
+        judged = joined([stance_block(stance) for stance, _ in piece])
+        nav = joined([nav_block(odometry) for _, odometry in piece])
+        if not np.array_equal(judged.imu.stamp_ns, nav.stamp_ns):
+            raise ValueError("verdicts and estimates do not have the same stamps")
+        yield FootOutput(judged, nav, steps)
+        steps = []
+
+
+def notices(bag: Path) -> list[Notice]:
+    """Return the last word of every node on what was wrong."""
+    last = {status.name: status for m in messages(bag, "diagnostics") for status in m.status}
+    return [notice for status in last.values() for notice in notices_from(status)]
+
+
+def messages(bag: Path, topic: str) -> Iterator[Any]:
+    """Yield the messages of a topic, named without its leading slash, in the order in which they came."""
+    from rosbags.highlevel import AnyReader
+
+    with AnyReader([bag]) as reader:
+        connections = [c for c in reader.connections if c.topic.strip("/") == topic]
+        for connection, _, raw in reader.messages(connections=connections) if connections else ():
+            yield reader.deserialize(raw, connection.msgtype)
