@@ -28,15 +28,11 @@ def foreign_entries(search_path: str, layout: Layout) -> list[str]:
 def clean_environment(inherited: Mapping[str, str], layout: Layout) -> dict[str, str]:
     """Keep what does not say where Python or ROS packages lie."""
     environment = {name: value for name, value in inherited.items() if name not in STALE}
-    environment["PATH"] = os.pathsep.join(
-        foreign_entries(inherited.get("PATH", os.defpath), layout)
-    )
+    environment["PATH"] = os.pathsep.join(foreign_entries(inherited.get("PATH", os.defpath), layout))
     return environment
 
 
-def launch_environment(
-    inherited: Mapping[str, str], layout: Layout, sourced: bool
-) -> dict[str, str]:
+def launch_environment(inherited: Mapping[str, str], layout: Layout, sourced: bool) -> dict[str, str]:
     """Give the environment in which everything of pdr runs, and in which messages are built."""
     environment = clean_environment(inherited, layout)
     kept = inherited if sourced else {}

@@ -37,9 +37,7 @@ def built_files(layout: Layout) -> list[Path]:
     return libraries + modules
 
 
-def _colcon_command(
-    layout: Layout, sources: list[Path], environment: Mapping[str, str]
-) -> list[str]:
+def _colcon_command(layout: Layout, sources: list[Path], environment: Mapping[str, str]) -> list[str]:
     """Give the command that builds these packages into the environment."""
     colcon = shutil.which("colcon", path=environment["PATH"]) or "colcon"
     fix = layout.messages / "cmake" / "pypi_ros_fix.cmake"

@@ -42,9 +42,7 @@ class Progress:
         if code:
             raise SetupError(f"{failure} (details: {self.log})")
 
-    def _start(
-        self, command: Sequence[str], environment: Mapping[str, str], output: int
-    ) -> subprocess.Popen[bytes]:
+    def _start(self, command: Sequence[str], environment: Mapping[str, str], output: int) -> subprocess.Popen[bytes]:
         """Start a program in a group of its own; it holds the lock too, so it never outlives it."""
         try:
             return subprocess.Popen(

@@ -30,9 +30,7 @@ def clear(layout: Layout) -> None:
         raise SetupError(f"{layout.venv} cannot be made anew: {error.strerror}") from error
 
 
-def create(
-    layout: Layout, ros: SourcedRos | None, environment: Mapping[str, str], progress: Progress
-) -> None:
+def create(layout: Layout, ros: SourcedRos | None, environment: Mapping[str, str], progress: Progress) -> None:
     """Make the environment: beside the sourced ROS if there is one, else on its own."""
     if ros:
         command = [ros.python, "-m", "venv", "--system-site-packages", str(layout.venv)]
@@ -41,9 +39,7 @@ def create(
     progress.run(command, environment, "the Python environment could not be made")
 
 
-def install(
-    layout: Layout, ros: SourcedRos | None, environment: Mapping[str, str], progress: Progress
-) -> None:
+def install(layout: Layout, ros: SourcedRos | None, environment: Mapping[str, str], progress: Progress) -> None:
     """Install the pinned packages and make our own importable from their sources."""
     listed = layout.venv / "requirements.txt"
     listed.write_text(requirements(layout, ros, environment), encoding="utf-8")

@@ -52,9 +52,7 @@ def ensure(python: str, environment: Mapping[str, str], progress: Progress) -> N
     if not packages:
         return
     if os.geteuid() != 0 or not shutil.which("apt-get"):
-        raise SetupError(
-            f"the system lacks {', '.join(packages)}; install with: {install_command(packages)}"
-        )
+        raise SetupError(f"the system lacks {', '.join(packages)}; install with: {install_command(packages)}")
     _install(packages, environment, progress)
     still = missing(python, environment)
     if still:

@@ -42,10 +42,7 @@ class Chain:
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
         for process in self._processes.values():
-            try:
-                process.wait(GRACE_S)
-            except subprocess.TimeoutExpired:
-                process.kill()
+            end(process)
 
     @property
     def driver_is_done(self) -> bool:
@@ -67,6 +64,14 @@ class Chain:
     def _last_words(self, name: str) -> str:
         lines = (self._folder / f"{name}.log").read_text().strip().splitlines()
         return lines[-1].removeprefix("pdr: ") if lines else f"see {self._folder}"
+
+
+def end(process: subprocess.Popen) -> None:
+    """Wait for a process that was asked to end; if it does not, kill it."""
+    try:
+        process.wait(GRACE_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
 
 
 def stay_on_this_machine(logs: Path, domain: int | None) -> None:

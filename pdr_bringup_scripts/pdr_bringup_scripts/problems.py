@@ -7,7 +7,7 @@ from pdr_core.parameter import ParameterError
 from pdr_core.recording import RecordingError
 
 
-class Problem(Exception):
+class Problem(Exception):  # noqa: N818  (what a person meets)
     """Something that the user can mend; the text says what to do next."""
 
 

@@ -28,10 +28,14 @@ class IntakeParams:
         156.9, "specific force at which the accelerometer saturates", unit="m/s^2", bounds=(10.0, 5000.0), source="16 g"
     )
     gyro_noise_density: float = parameter(
-        0.001, "noise density of the gyro", unit="rad/s/sqrt(Hz)", bounds=(0.0, 1.0), source="RESEARCH A.6"
+        0.001, "noise density of the gyro", unit="rad/s/sqrt(Hz)", bounds=(0.0, 1.0), source="measured on real walks"
     )
     accel_noise_density: float = parameter(
-        0.015, "noise density of the accelerometer", unit="m/s^2/sqrt(Hz)", bounds=(0.0, 10.0), source="RESEARCH A.6"
+        0.015,
+        "noise density of the accelerometer",
+        unit="m/s^2/sqrt(Hz)",
+        bounds=(0.0, 10.0),
+        source="measured on real walks",
     )
     saturated_gyro_sd_radps: float = parameter(
         1.0, "what a saturated gyro may be off by", unit="rad/s", bounds=(0.0, 50.0)
@@ -76,14 +80,25 @@ class StanceParams:
         0.05, "time threshold: a stance lasts at least so long", unit="s", bounds=(0.0, 1.0), source="Gui section 3"
     )
     dip_max_s: float = parameter(
-        0.15, "what begins sooner after toe-off than swing_min_s must last longer than this", unit="s", bounds=(0.0, 1.0),
+        0.15,
+        "what begins within swing_min_s after a toe-off must last longer",
+        unit="s",
+        bounds=(0.0, 1.0),
         source="Gui figure 3",
     )
     swing_min_s: float = parameter(
-        0.55, "within this time after a toe-off, a short dip of the statistic is mid-swing", unit="s", bounds=(0.0, 2.0), source="Gui section 3"
+        0.55,
+        "so soon after a toe-off, a short dip is mid-swing",
+        unit="s",
+        bounds=(0.0, 2.0),
+        source="Gui section 3",
     )
     rest_moving_radps: float = parameter(
-        0.5, "a mean rate over this is a moving foot", unit="rad/s", bounds=(0.01, 10.0), source="RESEARCH B.2"
+        0.5,
+        "a mean rate over this is a moving foot",
+        unit="rad/s",
+        bounds=(0.01, 10.0),
+        source="measured on real walks",
     )
     rest_smoothing_s: float = parameter(0.05, "time over which that mean is taken", unit="s", bounds=(0.0, 1.0))
     rest_guard_s: float = parameter(
@@ -95,7 +110,11 @@ class StanceParams:
         2.0, "shortest window of a later rest: longer than any stance of a walk", unit="s", bounds=(0.1, 60.0)
     )
     rest_floor_radps: float = parameter(
-        8.7e-4, "a rest never tells the gyro bias better than this", unit="rad/s", bounds=(0.0, 1.0), source="0.05 deg/s"
+        8.7e-4,
+        "a rest never tells the gyro bias better than this",
+        unit="rad/s",
+        bounds=(0.0, 1.0),
+        source="0.05 deg/s",
     )
     rest_turn_rad: float = parameter(
         5.2e-4, "a resting foot may turn steadily by this", unit="rad", bounds=(0.0, 1.0), source="0.03 deg"
@@ -117,18 +136,22 @@ class FilterParams:
         0.02, "how still a standing foot is", unit="m/s", bounds=(1e-5, 10.0), source="Gui eq. 22, Zhou R_v"
     )
     gate: float = parameter(
-        16.3, "normalised innovation squared that a zero-velocity update may have", bounds=(1.0, 1e9),
+        16.3,
+        "normalised innovation squared that a zero-velocity update may have",
+        bounds=(1.0, 1e9),
         source="chi-square, 3 degrees of freedom, 99.9 %",
     )
     gate_release_s: float = parameter(
         0.1, "rejections that go on for longer are taken after all, with less weight", unit="s", bounds=(0.0, 10.0)
     )
     step_merge_s: float = parameter(
-        0.3, "interruptions of a stance up to this belong to it", unit="s", bounds=(0.0, 5.0), source="RESEARCH A.8"
+        0.3,
+        "interruptions of a stance up to this belong to it",
+        unit="s",
+        bounds=(0.0, 5.0),
+        source="measured on real walks",
     )
-    gap_s: float = parameter(
-        0.1, "a longer time between two samples is not integrated", unit="s", bounds=(0.002, 10.0)
-    )
+    gap_s: float = parameter(0.1, "a longer time between two samples is not integrated", unit="s", bounds=(0.002, 10.0))
     gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
     gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))
     accel_bias_walk: float = parameter(
@@ -146,7 +169,7 @@ class FilterParams:
     initial_yaw_sd_rad: float = parameter(0.001, "at the start", unit="rad", bounds=(0.0, 3.15))
     initial_accel_bias_sd_mps2: float = parameter(0.02, "what the sensor may bring", unit="m/s^2", bounds=(0.0, 10.0))
     initial_gyro_bias_sd_radps: float = parameter(
-        0.0035, "what the sensor may bring: 0.2 deg/s", unit="rad/s", bounds=(0.0, 1.0), source="RESEARCH B.2"
+        0.0035, "what the sensor may bring: 0.2 deg/s", unit="rad/s", bounds=(0.0, 1.0), source="measured on real walks"
     )
 
 

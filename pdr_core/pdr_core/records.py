@@ -174,6 +174,4 @@ def part(block: Block, start: int, stop: int | None = None) -> Block:
 def joined(blocks: list[Block]) -> Block:
     """Return the blocks, one after the other, as one block."""
     columns = zip(*blocks, strict=True)
-    return type(blocks[0])(
-        *(joined(list(c)) if isinstance(c[0], tuple) else np.concatenate(c) for c in columns)
-    )
+    return type(blocks[0])(*(joined(list(c)) if isinstance(c[0], tuple) else np.concatenate(c) for c in columns))

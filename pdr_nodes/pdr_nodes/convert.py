@@ -4,13 +4,13 @@ import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, PoseStamped, Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
-from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
-from pdr_msgs.srv import ResetEstimate
 from sensor_msgs.msg import Imu
 
 from pdr_core import records
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock
+from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
+from pdr_msgs.srv import ResetEstimate
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
 
@@ -87,7 +87,7 @@ def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
 
 def finite(value: float) -> float:
     """Return the value, or the largest number in place of infinity."""
-    return float(min(value, np.finfo(np.float64).max))
+    return float(np.minimum(value, np.finfo(np.float64).max))
 
 
 def stance_block(message: StanceImu) -> StanceBlock:

@@ -1,5 +1,6 @@
 """ROS parameters from `pdr_core.params`: declared with text, unit and bounds, read once, checked at the start."""
 
+import dataclasses
 from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -20,7 +21,7 @@ def read_params(node: Node, groups: tuple[str, ...]) -> Params:
     given = {n: p.value for n, p in node.get_parameters_by_prefix("").items() if n.split(".")[0] not in ROS_OWN}
     params = params_from_mapping(nested(given))
     for group in groups:
-        for field in GROUPS[group].__dataclass_fields__.values():
+        for field in dataclasses.fields(GROUPS[group]):
             name = f"{group}.{field.name}"
             if not node.has_parameter(name):
                 node.declare_parameter(name, field.default, descriptor(field))

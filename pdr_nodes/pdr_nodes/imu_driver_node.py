@@ -4,13 +4,13 @@ import time
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped
-from pdr_msgs.srv import SetGyroPower, SetSampleRate
 from rclpy.duration import Duration
 from rclpy.node import Node
 from sensor_msgs.msg import Imu
 
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.records import Truth, TruthKind
+from pdr_msgs.srv import SetGyroPower, SetSampleRate
 from pdr_nodes.convert import imu_message, point_message, time_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.devices import open_device
@@ -68,9 +68,7 @@ class ImuDriverNode(Node):
         self._publisher.publish(imu_message(sample, 0, self._frame_id))
         self._truth.publish_until(int(sample.stamp_ns[0]))
 
-    def _set_gyro_power(
-        self, request: SetGyroPower.Request, response: SetGyroPower.Response
-    ) -> SetGyroPower.Response:
+    def _set_gyro_power(self, request: SetGyroPower.Request, response: SetGyroPower.Response) -> SetGyroPower.Response:
         if self._player.next is None:
             response.success, response.message = False, "the device has no more samples"
             return response

@@ -1,12 +1,12 @@
 """Node `stance_detector`: samples in (`imu/data`), samples with their verdict out (`stance`)."""
 
-from pdr_msgs.msg import StanceImu
 from rclpy.node import Node
 from sensor_msgs.msg import Imu
 
 from pdr_core.records import StanceBlock, length
 from pdr_core.stance import StanceDetection
 from pdr_core.warmup import warm_up
+from pdr_msgs.msg import StanceImu
 from pdr_nodes.convert import imu_block, stance_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch

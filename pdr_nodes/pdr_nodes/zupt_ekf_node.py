@@ -1,14 +1,14 @@
 """Node `zupt_ekf`: samples with verdicts in (`stance`); `odom`, `step`, `filter_health` and perhaps tf out."""
 
 from nav_msgs.msg import Odometry
-from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
-from pdr_msgs.srv import ResetEstimate
 from rclpy.node import Node
 
 from pdr_core.eskf import ZuptFilter
 from pdr_core.records import StepEvent as Step
 from pdr_core.records import length
 from pdr_core.warmup import warm_up
+from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
+from pdr_msgs.srv import ResetEstimate
 from pdr_nodes.convert import health_message, odometry_message, pose_of_reset, stance_block, step_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch

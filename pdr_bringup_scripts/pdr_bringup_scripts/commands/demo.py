@@ -15,8 +15,6 @@ def demo(
 
     Example: `pdr demo`, then open the report.html that it names
     """
-    from dataclasses import replace
-
     from pdr_bringup_scripts.chain import private_domain
     from pdr_bringup_scripts.live import live_run
     from pdr_bringup_scripts.run_folder import new_run_folder, show_result

@@ -21,9 +21,9 @@ def align(stamp_ns: int, force_mps2: Floats, rate_radps: Floats, s: Settings, st
         a.start_ns[0] = stamp_ns
         state.P[:] = np.diag(s.initial_sd**2)
     a.force_sum[:] += force_mps2
-    a.count[0] += 1
+    a.samples[0] += 1
     a.moving[0] = a.moving[0] or norm(rate_radps) > MOVING_RADPS
-    mean = a.force_sum / a.count[0]
+    mean = a.force_sum / a.samples[0]
     state.nominal.quat_xyzw[:] = levelled(mean, s.initial_yaw_rad)
     plausible = abs(norm(mean) / s.gravity_mps2 - 1.0) < PLAUSIBLE_GRAVITY
     state.gravity_mps2[0] = norm(mean) if s.gravity_from_rest and plausible else s.gravity_mps2

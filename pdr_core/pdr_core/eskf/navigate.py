@@ -1,7 +1,5 @@
 """The filter's loop: align, propagate, update, one sample after the other. The only text of it, live and offline."""
 
-import numpy as np
-
 from pdr_core.eskf.align import align
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance

@@ -38,7 +38,7 @@ class Link(NamedTuple):
     bias_decay: float
     attitude_to_accel: Floats  # (3, 3)
     gyro_bias_to_accel: Floats  # (3, 3)
-    mean_R: Floats  # (3, 3) world from foot
+    mean_R: Floats  # noqa: N815  (3, 3) world from foot
 
 
 @compiled

@@ -14,7 +14,7 @@ class Alignment(NamedTuple):
     running: Flags  # (1,)
     start_ns: Stamps  # (1,) -1: no sample yet
     force_sum: Floats  # (3,)
-    count: Stamps  # (1,)
+    samples: Stamps  # (1,)
     moving: Flags  # (1,) the foot did not rest
 
 
@@ -25,7 +25,7 @@ class Ends(NamedTuple):
     it makes the covariance of a displacement exact, not the difference of two growing ones.
     """
 
-    index: Stamps  # (1,) of the next step event
+    number: Stamps  # (1,) of the next step event
     stamp_ns: Stamps  # (2,) -1: none
     position_m: Floats  # (2, 3)
     covariance: Floats  # (2, 3, 3) of the position

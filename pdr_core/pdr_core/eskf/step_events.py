@@ -46,7 +46,7 @@ def step_taken(ends: Ends) -> StepEvent | None:
     step = None
     if ends.stamp_ns[0] >= 0:
         step = StepEvent(
-            index=int(ends.index[0]),
+            index=int(ends.number[0]),
             start_ns=int(ends.stamp_ns[0]),
             stamp_ns=int(ends.stamp_ns[1]),
             position_m=ends.position_m[1].copy(),
@@ -61,7 +61,7 @@ def step_taken(ends: Ends) -> StepEvent | None:
 
 def begin_next(ends: Ends) -> None:
     """Make the end of the stance noted last the one from which the next step begins."""
-    ends.index[0] += 1
+    ends.number[0] += 1
     ends.cross[:, :3] = ends.cross[:, 3:]
     for column in (ends.stamp_ns, ends.position_m, ends.covariance, ends.yaw_rad, ends.yaw_sd_rad):
         column[0] = column[1]

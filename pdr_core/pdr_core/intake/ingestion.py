@@ -44,12 +44,12 @@ class Ingestion:
 
     def _guarded(self, raw: ImuBlock) -> tuple[ImuBlock, Floats]:
         before_ns = self._guard.last_ns[0]
-        raw = ImuBlock(*(np.ascontiguousarray(column) for column in raw))
+        raw = ImuBlock._make(np.ascontiguousarray(column) for column in raw)
         faults = admitted(raw, self._limits, self._guard)
         for fault, (kind, level, text) in FAULTS.items():
             self._tally.add_flagged(kind, level, text, faults == fault, raw.stamp_ns)
         passes = (faults == Fault.NONE) | (faults == Fault.GAP) | (faults == Fault.RESTART)
-        good = ImuBlock(*(column[passes] for column in raw))
+        good = ImuBlock._make(column[passes] for column in raw)
         return good, intervals_s(good.stamp_ns, before_ns, self._params.gap_s)
 
     def _in_si_units(self, block: ImuBlock) -> ImuBlock:

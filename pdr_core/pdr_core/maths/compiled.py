@@ -8,7 +8,7 @@ import hashlib
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numba
 from numba.core import config
@@ -35,9 +35,9 @@ CACHE_FOLDER = cache_folder()
 
 def compiled(function: F) -> F:
     """Compile a function of plain arrays and named tuples; the machine code is kept between processes."""
-    before = config.CACHE_DIR
-    config.CACHE_DIR = str(CACHE_FOLDER)
+    before = getattr(config, "CACHE_DIR")  # noqa: B009  (numba sets its options at run time)
+    setattr(config, "CACHE_DIR", str(CACHE_FOLDER))  # noqa: B010
     try:
-        return numba.njit(cache=True, error_model="numpy")(function)
+        return cast(F, numba.njit(cache=True, error_model="numpy")(function))
     finally:
-        config.CACHE_DIR = before
+        setattr(config, "CACHE_DIR", before)  # noqa: B010

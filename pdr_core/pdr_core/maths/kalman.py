@@ -23,7 +23,7 @@ def innovation(P: Floats, H: Floats, R: Floats, residual: Floats) -> Innovation:
     """Return the innovation of a measurement with Jacobian H (m, n) and noise R (m, m) on the covariance P (n, n)."""
     HP = product(H, P)
     S = product(HP, H.T) + R
-    return Innovation(residual, HP, S, np.linalg.inv(S))
+    return Innovation(residual, HP, S, np.linalg.inv(S))  # type: ignore[arg-type]
 
 
 @compiled

@@ -9,11 +9,12 @@ from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Vector
 from pdr_core.records import Floats
 
-Quaternion = tuple[float, float, float, float]
+Four = tuple[float, float, float, float]
+Quaternion = Four | Floats  # x, y, z, w
 
 
 @compiled
-def multiply(p: Quaternion, q: Quaternion) -> Quaternion:
+def multiply(p: Quaternion, q: Quaternion) -> Four:
     """Return the product p q: first q, then p."""
     return (
         p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1],
@@ -24,7 +25,7 @@ def multiply(p: Quaternion, q: Quaternion) -> Quaternion:
 
 
 @compiled
-def from_rotation_vector(angle_rad: Vector) -> Quaternion:
+def from_rotation_vector(angle_rad: Vector) -> Four:
     """Return the quaternion of a rotation vector [rad]: the exponential map, exact also near zero."""
     norm = np.sqrt(angle_rad[0] ** 2 + angle_rad[1] ** 2 + angle_rad[2] ** 2)
     half = 0.5 * norm
@@ -33,7 +34,7 @@ def from_rotation_vector(angle_rad: Vector) -> Quaternion:
 
 
 @compiled
-def normalised(q: Quaternion) -> Quaternion:
+def normalised(q: Quaternion) -> Four:
     """Return q scaled to unit length."""
     length = np.sqrt(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2)
     return q[0] / length, q[1] / length, q[2] / length, q[3] / length
@@ -60,7 +61,7 @@ def yaw_rad(q: Quaternion) -> float:
 
 
 @compiled
-def from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Quaternion:
+def from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Four:
     """Return the quaternion of roll, pitch, yaw about the fixed axes x, y, z (REP-103)."""
     cr, sr = np.cos(0.5 * roll_rad), np.sin(0.5 * roll_rad)
     cp, sp = np.cos(0.5 * pitch_rad), np.sin(0.5 * pitch_rad)

@@ -8,7 +8,8 @@ import numpy as np
 from pdr_core.maths.compiled import compiled
 from pdr_core.records import Floats
 
-Vector = tuple[float, float, float]
+Triple = tuple[float, float, float]
+Vector = Triple | Floats  # three numbers
 
 
 @compiled
@@ -18,7 +19,7 @@ def cross_matrix(v: Vector) -> Floats:
 
 
 @compiled
-def rotated(R: Floats, v: Vector) -> Vector:
+def rotated(R: Floats, v: Vector) -> Triple:
     """Return R v for a (3, 3) matrix and a vector."""
     return (
         R[0, 0] * v[0] + R[0, 1] * v[1] + R[0, 2] * v[2],
@@ -28,19 +29,19 @@ def rotated(R: Floats, v: Vector) -> Vector:
 
 
 @compiled
-def scaled(factor: float, v: Vector) -> Vector:
+def scaled(factor: float, v: Vector) -> Triple:
     """Return factor v."""
     return factor * v[0], factor * v[1], factor * v[2]
 
 
 @compiled
-def mean(u: Vector, v: Vector) -> Vector:
+def mean(u: Vector, v: Vector) -> Triple:
     """Return (u + v) / 2."""
     return 0.5 * (u[0] + v[0]), 0.5 * (u[1] + v[1]), 0.5 * (u[2] + v[2])
 
 
 @compiled
-def difference(u: Vector, v: Vector) -> Vector:
+def difference(u: Vector, v: Vector) -> Triple:
     """Return u - v."""
     return u[0] - v[0], u[1] - v[1], u[2] - v[2]
 

@@ -74,7 +74,7 @@ def _unpacked(chunk: "Chunk") -> bytes:
 
         return zstandard.ZstdDecompressor().decompressobj().decompress(chunk.data)
     if chunk.compression == "lz4":
-        from lz4.frame import LZ4FrameDecompressor  # type: ignore[import-untyped]
+        from lz4.frame import LZ4FrameDecompressor
 
         return LZ4FrameDecompressor().decompress(chunk.data)
     return chunk.data

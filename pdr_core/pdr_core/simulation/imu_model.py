@@ -52,4 +52,4 @@ def body_rate_radps(motion: FootMotion) -> Floats:
 
 def specific_force_mps2(motion: FootMotion, gravity_mps2: float) -> Floats:
     """Return the specific force in the foot frame, (n, 3) (eq. 32)."""
-    return orientation(motion).inv().apply(motion.acceleration_mps2 + [0.0, 0.0, gravity_mps2])
+    return orientation(motion).inv().apply(motion.acceleration_mps2 + np.array([0.0, 0.0, gravity_mps2]))

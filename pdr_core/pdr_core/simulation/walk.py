@@ -28,7 +28,7 @@ def simulated_walk(params: DriverParams, place: PlaceParams | None = None, start
     where = place or PlaceParams()
     phases = [Phase(REST_S), *walk_phases(params.walk, params.walk_length_m), Phase(REST_S)]
     duration_s = sum(p.duration_s for p in phases)
-    time_s = np.arange(0.0, duration_s, 1.0 / params.sample_rate_hz)
+    time_s: Floats = np.arange(0.0, duration_s, 1.0 / params.sample_rate_hz, dtype=np.float64)
     stamp_ns = stamp_ns_from_seconds(time_s) + start_ns
     motion = move(phases, time_s)
     gravity = gravity_mps2(np.radians(where.latitude_deg), where.height_m)

@@ -69,9 +69,7 @@ def decide(
 
 
 @compiled
-def run_lasts(
-    stamp_ns: Stamps, statistic: Floats, start: int, threshold: float, needed_ns: int
-) -> tuple[bool, bool]:
+def run_lasts(stamp_ns: Stamps, statistic: Floats, start: int, threshold: float, needed_ns: int) -> tuple[bool, bool]:
     """Return whether the run below the threshold from `start` lasts for `needed_ns`, and whether its end is known."""
     for i in range(start, stamp_ns.shape[0]):
         if statistic[i] > threshold:

@@ -47,5 +47,6 @@ def window_statistic(
     expected = mean * (gravity_mps2 / length) if length > 0.0 else mean
     total = 0.0
     for k in range(first, last):
-        total += (norm(imu.accel_mps2[k] - expected) / accel_sd_mps2) ** 2 + (norm(imu.gyro_radps[k]) / gyro_sd_radps) ** 2
+        total += (norm(imu.accel_mps2[k] - expected) / accel_sd_mps2) ** 2
+        total += (norm(imu.gyro_radps[k]) / gyro_sd_radps) ** 2
     return total / (last - first)

@@ -1,10 +1,10 @@
 """The soft rest test: how well does a rest tell the gyro bias? A weight instead of a threshold.
 
 While the foot does not move, the angular rate is the bias. But a foot "at rest" wobbles, and a wobble taken for a bias
-turns the whole track. So every window of a rest is weighed by its own unrest: integrate the rate, fit a straight
-line to each axis of the angle; its slope is the rate, and `s_phi`, the largest rms about it, the unrest. The slope of a
-wobble of rms s_phi over a time T, correlated over about 0.25 s, has a standard deviation of s_phi sqrt(12 0.25 / T) / T.
-With a floor and an allowance for a steady turn, the weight is
+turns the whole track. So every window of a rest is weighed by its own unrest: integrate the rate, fit a straight line
+to each axis of the angle; its slope is the rate, and `s_phi`, the largest rms about it, the unrest. The slope of a
+wobble of rms s_phi over a time T, correlated over about 0.25 s, deviates by s_phi sqrt(12 * 0.25 / T) / T. With a floor
+and an allowance for a steady turn, the weight is
 
     s_b^2 = floor^2 + (1.5 s_phi sqrt(12 * 0.25 / T) / T)^2 + 2 (turn / T)^2
 
@@ -39,7 +39,7 @@ class RestLimits(NamedTuple):
 class RestState(NamedTuple):
     """The memory of the rest test: the rest so far."""
 
-    count: Stamps  # (1,) remembered samples
+    size: Stamps  # (1,) remembered samples
     first: Flags  # (1,) nothing has moved yet
     stamp_ns: Stamps  # (CAPACITY,)
     angle_rad: Floats  # (CAPACITY, 3) integrated rate
@@ -67,7 +67,7 @@ def rests(imu: ImuBlock, limits: RestLimits, state: RestState) -> tuple[Floats, 
         if imu.gyro_sd_radps[i] < 0.0 or moving(limits, state):
             evidence, sd[i] = best_window(limits, state)
             rate[i] = evidence
-            state.count[0] = 0
+            state.size[0] = 0
             state.first[0] = False
     return rate, sd
 
@@ -75,7 +75,7 @@ def rests(imu: ImuBlock, limits: RestLimits, state: RestState) -> tuple[Floats, 
 @compiled
 def remember(stamp_ns: int, rate_radps: Floats, state: RestState) -> None:
     """Append a sample; where the memory is full, forget its older half."""
-    k = state.count[0]
+    k = state.size[0]
     if k == CAPACITY:
         k = CAPACITY // 2
         state.angle_rad[:k] = state.angle_rad[k:].copy()
@@ -89,13 +89,13 @@ def remember(stamp_ns: int, rate_radps: Floats, state: RestState) -> None:
         dt = (stamp_ns - state.stamp_ns[k - 1]) * 1e-9
         state.angle_rad[k] = state.angle_rad[k - 1] + rate_radps * dt
         state.path_rad[k] = state.path_rad[k - 1] + norm(rate_radps) * dt
-    state.count[0] = k + 1
+    state.size[0] = k + 1
 
 
 @compiled
 def moving(limits: RestLimits, state: RestState) -> bool:
     """Return whether the mean rate over the last moments is that of a moving foot."""
-    newest = state.count[0] - 1
+    newest = state.size[0] - 1
     oldest = newest
     while oldest > 0 and state.stamp_ns[newest] - state.stamp_ns[oldest] < limits.smoothing_ns:
         oldest -= 1
@@ -114,13 +114,13 @@ def best_window(limits: RestLimits, state: RestState) -> tuple[Floats, float]:
     """
     rate, best_sd = np.zeros(3), 0.0
     length_ns = limits.shortest_ns if state.first[0] else limits.later_ns
-    stop_ns = state.stamp_ns[state.count[0] - 1] - limits.guard_ns
+    stop_ns = state.stamp_ns[state.size[0] - 1] - limits.guard_ns
     start_ns = state.stamp_ns[0] + (0 if state.first[0] else limits.guard_ns)
     while length_ns <= limits.longest_ns and start_ns + length_ns <= stop_ns:
         end_ns = stop_ns
         while end_ns - length_ns >= start_ns:
-            first = np.searchsorted(state.stamp_ns[: state.count[0]], end_ns - length_ns)
-            last = np.searchsorted(state.stamp_ns[: state.count[0]], end_ns)
+            first = np.searchsorted(state.stamp_ns[: state.size[0]], end_ns - length_ns)
+            last = np.searchsorted(state.stamp_ns[: state.size[0]], end_ns)
             sd = window_sd(state, first, last, limits)
             if last - first > 4 and (best_sd == 0.0 or sd < best_sd):
                 duration_s = (state.stamp_ns[last - 1] - state.stamp_ns[first]) * 1e-9
