@@ -11,10 +11,10 @@ LOST_AFTER_S = 5.0  # no step takes so long
 
 def notices(state: FilterState) -> list[Notice]:
     """Return what a person should know of the filter."""
-    counts, start_ns = state.counts, int(state.alignment.start_ns[0])
-    swing_s, released, gaps = counts.longest_swing_s[0], int(counts.released[0]), int(counts.gaps[0])
+    start_ns, swing_s = int(state.alignment_start_ns), float(state.longest_swing_s)
+    released, gaps = int(state.released), int(state.gaps)
     found = []
-    if state.alignment.moving[0]:
+    if state.moved:
         text = "the foot moved while it was levelled: stand still for the first moments"
         found.append(Notice(Level.WARN, "moving_start", text, 1, start_ns))
     if released:
@@ -31,42 +31,41 @@ def notices(state: FilterState) -> list[Notice]:
 
 def judged(state: FilterState) -> FilterHealth:
     """Return the filter's state in numbers."""
-    n, P, counts = state.nominal, state.P, state.counts
+    P = state.P
     sd = np.sqrt(np.diag(P))
-    since_s = float(state.last_ns[0] - state.last_accepted_ns[0]) * 1e-9
+    since_s = float(state.last_ns - state.last_accepted_ns) * 1e-9
     return FilterHealth(
         mode=mode(state),
-        stamp_ns=int(state.last_ns[0]),
+        stamp_ns=int(state.last_ns),
         quality=quality(state, since_s),
-        samples=int(counts.samples[0]),
-        accepted=int(counts.accepted[0]),
-        rejected=int(counts.rejected[0]),
-        gaps=int(counts.gaps[0]),
+        samples=int(state.samples),
+        accepted=int(state.accepted),
+        rejected=int(state.rejected),
+        gaps=int(state.gaps),
         since_zero_velocity_s=since_s,
-        normalised_innovation=float(counts.normalised_innovation[0]),
+        normalised_innovation=float(state.normalised_innovation),
         position_sd_m=float(np.sqrt(np.linalg.eigvalsh(P[POSITION : POSITION + 2, POSITION : POSITION + 2])[-1])),
         height_sd_m=float(sd[POSITION + 2]),
         velocity_sd_mps=float(sd[VELOCITY : VELOCITY + 3].max()),
         tilt_sd_rad=float(sd[ATTITUDE : ATTITUDE + 2].max()),
         yaw_sd_rad=float(sd[ATTITUDE + 2]),
-        gyro_bias_radps=n.gyro_bias_radps.copy(),
+        gyro_bias_radps=state.gyro_bias_radps.copy(),
         gyro_bias_sd_radps=sd[GYRO_BIAS : GYRO_BIAS + 3],
-        accel_bias_mps2=n.accel_bias_mps2.copy(),
+        accel_bias_mps2=state.accel_bias_mps2.copy(),
         accel_bias_sd_mps2=sd[ACCEL_BIAS : ACCEL_BIAS + 3],
-        gravity_mps2=float(state.gravity_mps2[0]),
+        gravity_mps2=float(state.gravity_mps2),
     )
 
 
 def mode(state: FilterState) -> FilterMode:
     """Return what the filter is doing."""
-    if state.alignment.running[0]:
+    if state.aligning:
         return FilterMode.ALIGNING
-    return FilterMode.COASTING if state.coasting[0] else FilterMode.NAVIGATING
+    return FilterMode.COASTING if state.coasting else FilterMode.NAVIGATING
 
 
 def quality(state: FilterState, since_zero_velocity_s: float) -> float:
     """Return the share of stances that agreed with the estimate, fading to 0 while no stance is found."""
-    counts = state.counts
-    agreed = counts.accepted[0] - counts.released[0]
-    share = agreed / max(1, counts.accepted[0] + counts.rejected[0])
+    agreed = state.accepted - state.released
+    share = agreed / max(1, state.accepted + state.rejected)
     return float(share * max(0.0, 1.0 - since_zero_velocity_s / LOST_AFTER_S))

@@ -19,7 +19,7 @@ UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much ti
 def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
     """Take sample i of the block into the estimate."""
     stamp_ns = block.imu.stamp_ns[i]
-    if state.alignment.running[0]:
+    if state.aligning:
         align(stamp_ns, block.imu.accel_mps2[i], block.imu.gyro_radps[i], s, state)
     else:
         propagate(block, i, s, state)
@@ -27,46 +27,45 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
             zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
         if block.stance[i] and zero_velocity(stamp_ns, s, state):
             stand(stamp_ns, state)
-        since_s = (stamp_ns - state.last_accepted_ns[0]) * 1e-9
-        state.counts.longest_swing_s[0] = max(since_s, state.counts.longest_swing_s[0])
-    state.last_ns[0] = stamp_ns
+        since_s = (stamp_ns - state.last_accepted_ns) * 1e-9
+        state.longest_swing_s = max(since_s, state.longest_swing_s)
+    state.last_ns = stamp_ns
     state.last_force_mps2[:] = block.imu.accel_mps2[i]
     state.last_rate_radps[:] = block.imu.gyro_radps[i]
-    state.last_gyro_sd_radps[0] = block.imu.gyro_sd_radps[i]
-    state.counts.samples[0] += 1
+    state.last_gyro_sd_radps = block.imu.gyro_sd_radps[i]
+    state.samples += 1
 
 
 @compiled
 def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
     """Move estimate and covariance from the last sample to sample i."""
-    dt_ns = block.imu.stamp_ns[i] - state.last_ns[0]
+    dt_ns = block.imu.stamp_ns[i] - state.last_ns
     dt_s = dt_ns * 1e-9
     if dt_ns <= 0 or dt_ns > s.gap_ns or block.imu.gyro_sd_radps[i] < 0.0:
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
-    state.coasting[0] = False
-    n = state.nominal
-    force_before = difference(state.last_force_mps2, n.accel_bias_mps2)
-    force_after = difference(block.imu.accel_mps2[i], n.accel_bias_mps2)
-    rate = difference(mean(state.last_rate_radps, block.imu.gyro_radps[i]), n.gyro_bias_radps)
+    state.coasting = False
+    force_before = difference(state.last_force_mps2, state.accel_bias_mps2)
+    force_after = difference(block.imu.accel_mps2[i], state.accel_bias_mps2)
+    rate = difference(mean(state.last_rate_radps, block.imu.gyro_radps[i]), state.gyro_bias_radps)
     R_before, R_after = advance(
-        n.position_m, n.velocity_mps, n.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2[0]
+        state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
     k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
     q = noise(block.imu.accel_sd_mps2[i], block.imu.gyro_sd_radps[i], dt_s, s.process)
     propagate_covariance(state.P, k, q)
-    carry(k, state.ends.cross)
-    n.accel_bias_mps2[:] *= k.bias_decay
-    n.gyro_bias_radps[:] *= k.bias_decay
+    carry(k, state.cross)
+    state.accel_bias_mps2[:] *= k.bias_decay
+    state.gyro_bias_radps[:] *= k.bias_decay
 
 
 @compiled
 def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     """Cross a gap: hold the position, forget the velocity, trust everything less."""
-    state.nominal.velocity_mps[:] = 0.0
-    cross_gap(state.P, state.ends.cross, dt_s, s.process)
-    state.coasting[0] = True
-    state.counts.gaps[0] += 1
+    state.velocity_mps[:] = 0.0
+    cross_gap(state.P, state.cross, dt_s, s.process)
+    state.coasting = True
+    state.gaps += 1
 
 
 @compiled
@@ -78,6 +77,6 @@ def navigate(block: StanceBlock, start: int, s: Settings, state: FilterState, ou
     for i in range(start, block.imu.stamp_ns.shape[0]):
         sample_step(block, i, s, state)
         write(out, i, state)
-        if stance_is_over(state.last_ns[0], s.merge_ns, state.ends):
+        if stance_is_over(s.merge_ns, state):
             return i + 1, True
     return block.imu.stamp_ns.shape[0], False

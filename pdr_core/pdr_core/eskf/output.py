@@ -6,7 +6,7 @@ from pdr_core.eskf.error_state import ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import matrix
-from pdr_core.maths.vector import cross_matrix, product, rotated
+from pdr_core.maths.vector import product
 from pdr_core.records import Floats, NavBlock
 
 
@@ -26,18 +26,19 @@ def empty_nav(count: int) -> NavBlock:
 @compiled
 def write(out: NavBlock, i: int, state: FilterState) -> None:
     """Write the estimate as sample i of the output."""
-    n, P = state.nominal, state.P
-    R_foot_from_world = matrix(n.quat_xyzw).T.copy()
-    velocity = rotated(R_foot_from_world, n.velocity_mps)
-    velocity_covariance = velocity_covariance_in_foot(R_foot_from_world, n.velocity_mps, P)
-    out.stamp_ns[i] = state.last_ns[0]
+    P = state.P
+    J = foot_velocity_jacobian(state.quat_xyzw, state.velocity_mps)
+    velocity_covariance = product(product(J, P[VELOCITY : ATTITUDE + 3, VELOCITY : ATTITUDE + 3]), J.T)
+    out.stamp_ns[i] = state.last_ns
     for j in range(4):
-        out.quat_xyzw[i, j] = n.quat_xyzw[j]
+        out.quat_xyzw[i, j] = state.quat_xyzw[j]
     for j in range(3):
-        out.position_m[i, j] = n.position_m[j]
-        out.velocity_mps[i, j] = velocity[j]
-        out.rate_radps[i, j] = state.last_rate_radps[j] - n.gyro_bias_radps[j]
-        out.twist_covariance[i, 3 + j, 3 + j] = state.last_gyro_sd_radps[0] ** 2
+        out.position_m[i, j] = state.position_m[j]
+        out.velocity_mps[i, j] = (
+            J[j, 0] * state.velocity_mps[0] + J[j, 1] * state.velocity_mps[1] + J[j, 2] * state.velocity_mps[2]
+        )
+        out.rate_radps[i, j] = state.last_rate_radps[j] - state.gyro_bias_radps[j]
+        out.twist_covariance[i, 3 + j, 3 + j] = state.last_gyro_sd_radps**2
         for k in range(3):
             out.pose_covariance[i, j, k] = P[POSITION + j, POSITION + k]
             out.pose_covariance[i, j, 3 + k] = P[POSITION + j, ATTITUDE + k]
@@ -48,14 +49,18 @@ def write(out: NavBlock, i: int, state: FilterState) -> None:
 
 
 @compiled
-def velocity_covariance_in_foot(R_foot_from_world: Floats, velocity_mps: Floats, P: Floats) -> Floats:
-    """Return the covariance, (3, 3), of the velocity in the foot frame.
+def foot_velocity_jacobian(quat_xyzw: Floats, velocity_mps: Floats) -> Floats:
+    """Return d (velocity in the foot frame) / d (velocity error, attitude error), (3, 6).
 
     R_true' v_true = R' (I - [attitude x]) (v + velocity error), so the error in the foot frame is
-    R' (velocity error + [v x] attitude error).
+    R' (velocity error + [v x] attitude error). The first three columns are R', which also turns the velocity itself.
     """
-    V, A = slice(VELOCITY, VELOCITY + 3), slice(ATTITUDE, ATTITUDE + 3)
-    X = cross_matrix(velocity_mps)
-    mixed = product(X, P[A, V])
-    world = P[V, V] + mixed + mixed.T + product(product(X, P[A, A]), X.T)
-    return product(product(R_foot_from_world, world), R_foot_from_world.T)
+    R, v = matrix(quat_xyzw), velocity_mps
+    J = np.empty((3, 6))
+    for i in range(3):
+        for j in range(3):
+            J[i, j] = R[j, i]
+        J[i, 3] = R[1, i] * v[2] - R[2, i] * v[1]
+        J[i, 4] = R[2, i] * v[0] - R[0, i] * v[2]
+        J[i, 5] = R[0, i] * v[1] - R[1, i] * v[0]
+    return J

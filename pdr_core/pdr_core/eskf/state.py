@@ -1,103 +1,73 @@
-"""All that the filter remembers between two samples. It can be copied, saved and restored."""
+"""All that the filter remembers between two samples: one numpy record, so it is copied, saved and restored as one.
 
-from typing import NamedTuple
+A record also costs compiled code only a pointer, where a tuple of arrays would cost each of them at every call.
+"""
 
 import numpy as np
 
-from pdr_core.eskf.error_state import SIZE, Nominal, at_origin
-from pdr_core.records import Flags, Floats, Stamps
+from pdr_core.eskf.error_state import SIZE
 
-
-class Alignment(NamedTuple):
-    """The first moments, in which the attitude comes from gravity alone."""
-
-    running: Flags  # (1,)
-    start_ns: Stamps  # (1,) -1: no sample yet
-    force_sum: Floats  # (3,)
-    samples: Stamps  # (1,)
-    moving: Flags  # (1,) the foot did not rest
-
-
-class Ends(NamedTuple):
-    """Where the last two stances ended: index 0 the confirmed end, index 1 one that may still go on.
-
-    `cross` holds the covariances of the errors now with the position errors at those two ends (stochastic cloning);
-    it makes the covariance of a displacement exact, not the difference of two growing ones.
-    """
-
-    number: Stamps  # (1,) of the next step event
-    stamp_ns: Stamps  # (2,) -1: none
-    position_m: Floats  # (2, 3)
-    covariance: Floats  # (2, 3, 3) of the position
-    cross: Floats  # (15, 6)
-    displacement_covariance: Floats  # (3, 3) from end 0 to end 1
-    yaw_rad: Floats  # (2,)
-    yaw_sd_rad: Floats  # (2,)
-
-
-class Counts(NamedTuple):
-    """What happened so far, for people to read."""
-
-    samples: Stamps  # (1,)
-    accepted: Stamps  # (1,) zero-velocity updates
-    rejected: Stamps  # (1,) by the innovation gate
-    released: Stamps  # (1,) accepted with inflated noise after a row of rejections
-    gaps: Stamps  # (1,)
-    longest_swing_s: Floats  # (1,) longest time without a zero-velocity update
-    normalised_innovation: Floats  # (1,) of the last zero-velocity update
-
-
-class FilterState(NamedTuple):
-    """Estimate, covariance and memory of the filter."""
-
-    nominal: Nominal
-    P: Floats  # (15, 15)
-    gravity_mps2: Floats  # (1,)
-    last_ns: Stamps  # (1,) stamp of the last sample; -1: none
-    last_force_mps2: Floats  # (3,) as measured
-    last_rate_radps: Floats  # (3,) as measured
-    last_gyro_sd_radps: Floats  # (1,)
-    coasting: Flags  # (1,) the last interval was not integrated
-    last_accepted_ns: Stamps  # (1,) stamp of the last accepted zero-velocity update; -1: none
-    rejecting_since_ns: Stamps  # (1,) -1: not rejecting
-    alignment: Alignment
-    ends: Ends
-    counts: Counts
-
-
-def none_yet(count: int = 1) -> Stamps:
-    """Return stamps that say "none"."""
-    return np.full(count, -1, np.int64)
-
-
-def zero() -> Stamps:
-    """Return a counter at zero."""
-    return np.zeros(1, np.int64)
+# fmt: off
+ESTIMATE = [
+    ("position_m", np.float64, 3),            # world frame
+    ("velocity_mps", np.float64, 3),          # world frame
+    ("quat_xyzw", np.float64, 4),             # world from foot
+    ("accel_bias_mps2", np.float64, 3),
+    ("gyro_bias_radps", np.float64, 3),
+    ("P", np.float64, (SIZE, SIZE)),          # covariance of the errors
+    ("gravity_mps2", np.float64),
+]
+LAST_SAMPLE = [
+    ("last_ns", np.int64),                    # -1: none yet
+    ("last_force_mps2", np.float64, 3),       # as measured
+    ("last_rate_radps", np.float64, 3),
+    ("last_gyro_sd_radps", np.float64),
+    ("coasting", np.bool_),                   # the last interval was not integrated
+]
+ALIGNMENT = [                                 # the first moments, in which gravity alone gives the attitude
+    ("aligning", np.bool_),
+    ("alignment_start_ns", np.int64),
+    ("force_sum_mps2", np.float64, 3),
+    ("force_samples", np.int64),
+    ("moved", np.bool_),                      # the foot did not rest
+]
+GATE = [
+    ("last_accepted_ns", np.int64),           # of the zero-velocity updates
+    ("rejecting_since_ns", np.int64),         # -1: not rejecting
+]
+# The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; stamp -1: none. `cross`
+# holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
+# a displacement is exact, not the difference of two growing ones.
+STEPS = [
+    ("step_number", np.int64),                # of the next step event
+    ("end_ns", np.int64, 2),
+    ("end_position_m", np.float64, (2, 3)),
+    ("end_covariance", np.float64, (2, 3, 3)),
+    ("end_yaw_rad", np.float64, 2),
+    ("end_yaw_sd_rad", np.float64, 2),
+    ("cross", np.float64, (SIZE, 6)),
+    ("displacement_covariance", np.float64, (3, 3)),
+]
+COUNTS = [                                    # what happened so far, for people to read
+    ("samples", np.int64),
+    ("accepted", np.int64),                   # zero-velocity updates
+    ("rejected", np.int64),                   # by the innovation gate
+    ("released", np.int64),                   # accepted beyond the gate after a row of rejections
+    ("gaps", np.int64),
+    ("longest_swing_s", np.float64),          # longest time without a zero-velocity update
+    ("normalised_innovation", np.float64),    # of the last zero-velocity update
+]
+# fmt: on
+LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *COUNTS], align=True)
+FilterState = np.record
 
 
 def fresh_state() -> FilterState:
     """Return the memory of a filter that has seen nothing."""
-    return FilterState(
-        nominal=at_origin(),
-        P=np.zeros((SIZE, SIZE)),
-        gravity_mps2=np.zeros(1),
-        last_ns=none_yet(),
-        last_force_mps2=np.zeros(3),
-        last_rate_radps=np.zeros(3),
-        last_gyro_sd_radps=np.zeros(1),
-        coasting=np.zeros(1, np.bool_),
-        last_accepted_ns=none_yet(),
-        rejecting_since_ns=none_yet(),
-        alignment=Alignment(np.ones(1, np.bool_), none_yet(), np.zeros(3), zero(), np.zeros(1, np.bool_)),
-        ends=Ends(
-            zero(),
-            none_yet(2),
-            np.zeros((2, 3)),
-            np.zeros((2, 3, 3)),
-            np.zeros((SIZE, 6)),
-            np.zeros((3, 3)),
-            np.zeros(2),
-            np.zeros(2),
-        ),
-        counts=Counts(zero(), zero(), zero(), zero(), zero(), np.zeros(1), np.zeros(1)),
-    )
+    state = np.zeros(1, LAYOUT).view(np.recarray)[0]
+    state.quat_xyzw[3] = 1.0
+    state.aligning = True
+    for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns", "rejecting_since_ns"):
+        state[stamp] = -1
+    state.end_ns[:] = -1
+    return state

@@ -3,21 +3,42 @@
 import numpy as np
 
 from pdr_core.eskf import zaru, zupt
-from pdr_core.eskf.error_state import inject
+from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.kalman import Innovation, correct, gain, inflated, innovation, normalised_squared
-from pdr_core.maths.vector import product
+from pdr_core.maths.kalman import (
+    Innovation,
+    correct,
+    correct_cross,
+    estimated_error,
+    gain,
+    inflated,
+    innovation,
+    normalised_squared,
+)
+from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
 from pdr_core.records import Floats
 
 
 @compiled
 def apply(y: Innovation, H: Floats, K: Floats, state: FilterState) -> None:
     """Correct the estimate, its covariance and its covariance with the ends of the last stances."""
-    inject(state.nominal, product(K, y.residual.reshape(-1, 1))[:, 0])
-    state.ends.cross[:] -= product(K, product(H, state.ends.cross))
+    inject(state, estimated_error(K, y))
+    correct_cross(state.cross, K, H)
     correct(state.P, K, y)
+
+
+@compiled
+def inject(state: FilterState, error: Floats) -> None:
+    """Correct the estimate by the estimated errors (15,), which are zero thereafter."""
+    turn = from_rotation_vector(error[ATTITUDE : ATTITUDE + 3])
+    state.quat_xyzw[:] = normalised(multiply(turn, state.quat_xyzw))
+    for i in range(3):
+        state.position_m[i] += error[POSITION + i]
+        state.velocity_mps[i] += error[VELOCITY + i]
+        state.accel_bias_mps2[i] += error[ACCEL_BIAS + i]
+        state.gyro_bias_radps[i] += error[GYRO_BIAS + i]
 
 
 @compiled
@@ -29,34 +50,34 @@ def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
     brings it to the gate. So nothing locks the filter out.
     """
     R = np.eye(3) * s.zero_velocity_sd_mps**2
-    y = innovation(state.P, zupt.H, R, zupt.residual(state.nominal.velocity_mps))
+    y = innovation(state.P, zupt.H, R, zupt.residual(state.velocity_mps))
     d2 = normalised_squared(y)
-    state.counts.normalised_innovation[0] = d2
+    state.normalised_innovation = d2
     if d2 > s.gate:
         if not released(stamp_ns, s.release_ns, state):
-            state.counts.rejected[0] += 1
+            state.rejected += 1
             return False
         y = inflated(y, d2 / s.gate)
-        state.counts.released[0] += 1
+        state.released += 1
     else:
-        state.rejecting_since_ns[0] = -1
+        state.rejecting_since_ns = -1
     apply(y, zupt.H, zupt.without_gyro_bias(gain(y)), state)
-    state.last_accepted_ns[0] = stamp_ns
-    state.counts.accepted[0] += 1
+    state.last_accepted_ns = stamp_ns
+    state.accepted += 1
     return True
 
 
 @compiled
 def released(stamp_ns: int, release_ns: int, state: FilterState) -> bool:
     """Return whether the rejections, of which this is one, have gone on for longer than the release time."""
-    if state.rejecting_since_ns[0] < 0:
-        state.rejecting_since_ns[0] = stamp_ns
-    return stamp_ns - state.rejecting_since_ns[0] >= release_ns
+    if state.rejecting_since_ns < 0:
+        state.rejecting_since_ns = stamp_ns
+    return stamp_ns - state.rejecting_since_ns >= release_ns
 
 
 @compiled
 def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState) -> None:
     """Tell the filter the gyro bias that a rest has shown."""
     R = np.eye(3) * rest_sd_radps**2
-    y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.nominal.gyro_bias_radps))
+    y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))
     apply(y, zaru.H, gain(y), state)

@@ -32,10 +32,10 @@ class ZuptFilter:
 
     def finish(self) -> list[StepEvent]:
         """Return the step that ends in the stance which the recording ends in, if it does."""
-        return self._step_taken() if self.state.ends.stamp_ns[1] >= 0 else []
+        return self._step_taken() if self.state.end_ns[1] >= 0 else []
 
     def _step_taken(self) -> list[StepEvent]:
-        step = step_taken(self.state.ends)
+        step = step_taken(self.state)
         return [step] if step else []
 
     @property
@@ -51,14 +51,14 @@ class ZuptFilter:
     def reset(self, pose: PoseEstimate, keep_biases: bool) -> None:
         """Start anew at a pose: the foot is levelled there by the next samples, so it should stand still."""
         before = self.state
-        yaw = yaw_rad(before.nominal.quat_xyzw) if pose.quat_xyzw is None else yaw_rad(pose.quat_xyzw)
+        yaw = yaw_rad(before.quat_xyzw) if pose.quat_xyzw is None else yaw_rad(pose.quat_xyzw)
         sd = self._settings.initial_sd.copy()
         sd[POSITION : POSITION + 3] = np.sqrt(np.diag(pose.covariance)[:3])
         sd[ATTITUDE + 2] = np.sqrt(pose.covariance[5, 5])
         self.state = fresh_state()
-        self.state.nominal.position_m[:] = pose.position_m
+        self.state.position_m[:] = pose.position_m
         if keep_biases:
             sd[ACCEL_BIAS:] = np.sqrt(np.diag(before.P)[ACCEL_BIAS:])
-            self.state.nominal.accel_bias_mps2[:] = before.nominal.accel_bias_mps2
-            self.state.nominal.gyro_bias_radps[:] = before.nominal.gyro_bias_radps
+            self.state.accel_bias_mps2[:] = before.accel_bias_mps2
+            self.state.gyro_bias_radps[:] = before.gyro_bias_radps
         self._settings = self._settings._replace(initial_yaw_rad=yaw, initial_sd=sd)

@@ -64,3 +64,23 @@ def correct(P: Floats, K: Floats, y: Innovation) -> None:
                 total -= K[i, m] * B[m, j] + K[j, m] * B[m, i]
             P[i, j] = total
             P[j, i] = total
+
+
+@compiled
+def estimated_error(K: Floats, y: Innovation) -> Floats:
+    """Return K y, (n,): what the measurement says of the errors."""
+    error = np.zeros(K.shape[0])
+    for i in range(K.shape[0]):
+        for m in range(K.shape[1]):
+            error[i] += K[i, m] * y.residual[m]
+    return error
+
+
+@compiled
+def correct_cross(C: Floats, K: Floats, H: Floats) -> None:
+    """Replace C, (n, k), the covariance of the state with something that is not corrected, by (I - K H) C."""
+    HC = product(H, C)
+    for i in range(C.shape[0]):
+        for j in range(C.shape[1]):
+            for m in range(K.shape[1]):
+                C[i, j] -= K[i, m] * HC[m, j]
