@@ -95,9 +95,7 @@ class TestStamp:
         stamp.write_environment(layout, stamp.wanted(layout, {}), sourced=False)
         assert stamp.judge(layout, {})[0] == stamp.MESSAGES
 
-    def test_sourcing_a_ros_later_makes_everything_anew(
-        self, layout: Layout, tmp_path: Path
-    ) -> None:
+    def test_sourcing_a_ros_later_makes_everything_anew(self, layout: Layout, tmp_path: Path) -> None:
         environment = _sourced(tmp_path)
         assert stamp.judge(layout, environment) == (stamp.EVERYTHING, stamp.REASONS["ros"])
 
@@ -145,9 +143,7 @@ class TestTf2Fallback:
         _file(layout.venv / "share" / "tf2_msgs" / "package.xml", tf2_msgs.PACKAGE)
         assert not tf2_msgs.provided({}, layout)
 
-    def test_a_real_one_that_appears_later_rebuilds_the_messages(
-        self, layout: Layout, tmp_path: Path
-    ) -> None:
+    def test_a_real_one_that_appears_later_rebuilds_the_messages(self, layout: Layout, tmp_path: Path) -> None:
         environment = _sourced(tmp_path)
         _finish(layout, environment)
         _file(tmp_path / "ros" / "share" / "tf2_msgs" / "package.xml", "<package/>")
@@ -201,9 +197,7 @@ class TestEnvironment:
         assert environment["AMENT_PREFIX_PATH"] == expected
         assert environment["PYTHONPATH"] == "/ros/python"
 
-    def test_the_environment_of_another_checkout_is_dropped(
-        self, layout: Layout, tmp_path: Path
-    ) -> None:
+    def test_the_environment_of_another_checkout_is_dropped(self, layout: Layout, tmp_path: Path) -> None:
         other = _file(tmp_path / "other" / ".venv" / layout.stamp.name).parent
         inherited = {"AMENT_PREFIX_PATH": f"{other}:/ros", "PYTHONPATH": f"{other}/lib/x:/ros/x"}
         environment = launch_environment(inherited, layout, sourced=True)
