@@ -83,10 +83,17 @@ def yaml_lines(cls: type, indent: str) -> list[str]:
     lines = []
     for field in dataclasses.fields(cls):
         known = meta(field)
-        value = str(field.default).lower() if isinstance(field.default, bool) else repr(field.default)
         lines.append(f"{indent}# {known.doc} ({known.allowed})")
-        lines.append(f"{indent}{field.name}: {value}")
+        lines.append(f"{indent}{field.name}: {yaml_value(field.default)}")
     return lines
+
+
+def yaml_value(value: Any) -> str:
+    """Return a value as YAML 1.1 reads it: 1e-05 would be a string, 1.0e-05 is a number."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = repr(value)
+    return text.replace("e", ".0e") if isinstance(value, float) and "e" in text and "." not in text else text
 
 
 def markdown_rows(cls: type) -> list[str]:

@@ -1,0 +1,32 @@
+"""One foot on a stock ROS 2: `ros2 launch pdr_bringup_scripts foot.launch.py imu:=/your/imu`.
+
+Needs the packages launch and launch_ros, which every ROS installation has.
+"""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
+
+
+def generate_launch_description():
+    defaults = PathJoinSubstitution([FindPackageShare("pdr_bringup_scripts"), "config", "foot.yaml"])
+    arguments = [
+        DeclareLaunchArgument("imu", default_value="imu/data_raw", description="topic of your driver"),
+        DeclareLaunchArgument("params", default_value=defaults, description="parameter file, see `pdr params`"),
+        DeclareLaunchArgument("namespace", default_value="", description="one per foot"),
+    ]
+    nodes = [
+        Node(
+            package="pdr_nodes",
+            executable=name,
+            namespace=LaunchConfiguration("namespace"),
+            parameters=[LaunchConfiguration("params")],
+            remappings=[("imu/data_raw", LaunchConfiguration("imu"))],
+        )
+        for name in NODES
+    ]
+    return LaunchDescription(arguments + nodes)
