@@ -14,25 +14,28 @@ from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
 from pdr_core.evaluation.result import Result
 from pdr_core.params import Params, params_as_mapping
-from pdr_core.recording import open_recording
+from pdr_core.recording import Sensor, open_recording
 from pdr_core.records import length
 from pdr_core.warmup import warm_up
 
 PIPELINE = "foot_inertial, live"
 BAG = "recording"
-QUIET_S = 2.5  # the nodes give out what waits after one second each without samples
+QUIET_S = 3.5  # the nodes give out what waits after up to two seconds without samples
 NOTHING_S = 30.0
 SHOW_EVERY = 20  # odometry messages
 
 
-def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal) -> Result:
-    """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`."""
+def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, source: Sensor | None = None) -> Result:
+    """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`.
+
+    The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
+    """
     make_folder(out)
     params = replace(params, node=replace(params.node, input_reliable=True))  # the driver is ours
     warm_up()  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
     record(params, out, domain, terminal)
-    return judge(params, out, time.monotonic() - begin)
+    return judge(params, out, time.monotonic() - begin, source)
 
 
 def record(params: Params, out: Path, domain: int | None, terminal: Terminal) -> None:
@@ -78,12 +81,12 @@ class Watch:
             self._show(f"{self._steps} strides, now at x {p.x:+.2f} m, y {p.y:+.2f} m, height {p.z:+.2f} m")
 
 
-def judge(params: Params, out: Path, seconds: float) -> Result:
-    """Compare what the nodes said with the truth they recorded, and write the files of the run."""
+def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:
+    """Compare what the nodes said with the truth, and write the files of the run."""
     session = open_recording(out / BAG)
     (sensor,) = session.sensors.values()
     with ExitStack() as stack:
-        book = Book(session, sensor, out, stack)
+        book = Book(session, source or sensor, out, stack)
         for output in outputs(out / BAG):
             book.keep(output)
         samples = sum(length(piece) for piece in sensor.pieces())

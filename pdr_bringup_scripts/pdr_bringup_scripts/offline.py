@@ -41,6 +41,14 @@ def chosen_sensors(session: Session, name: str | None) -> list[Sensor]:
     return [session.sensors[name]]
 
 
+def only_sensor(session: Session, name: str) -> Sensor:
+    """Return the sensor of that name, or the only one of a recording."""
+    sensors = chosen_sensors(session, name or None)
+    if len(sensors) > 1:
+        raise Problem(f"{session.path} has several sensors; choose one by --sensor: {', '.join(session.sensors)}")
+    return sensors[0]
+
+
 def run_sensor(session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal) -> Result:
     """Estimate one sensor and write its files."""
     pipeline, samples, seconds = FootInertial(params), 0, 0.0

@@ -183,6 +183,9 @@ class DriverParams:
     rate_factor: float = parameter(
         1.0, "speed of the replay; 0: as fast as the subscribers take it", bounds=(0.0, 1000.0)
     )
+    acknowledge_topic: str = parameter(
+        "odom", "as fast as possible: samples count as taken once their estimate appears on this topic"
+    )
     walk: str = parameter("rectangle", "the simulated walk", choices=("rectangle", "straight", "still"))
     walk_length_m: float = parameter(36.0, "length of the simulated walk", unit="m", bounds=(0.0, 1e5))
     sensor_model: str = parameter(

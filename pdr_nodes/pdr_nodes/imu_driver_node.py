@@ -17,6 +17,7 @@ from pdr_nodes.devices import open_device
 from pdr_nodes.devices.player import Player
 from pdr_nodes.qos import OWN
 from pdr_nodes.run import run
+from pdr_nodes.throttle import Throttle
 
 LOOK_S = 0.05  # how often to look for subscribers, and for calls while nothing is due
 BURST = 100  # samples published before services are served again
@@ -35,6 +36,7 @@ class ImuDriverNode(Node):
         self._player = Player(source, self._settling_s)
         self._publisher = self.create_publisher(Imu, "imu/data_raw", OWN)
         self._truth = TruthPublisher(self, source.truth)
+        self._throttle = Throttle(self, params.driver.acknowledge_topic) if self._rate_factor == 0.0 else None
         self._begin: tuple[float, int] | None = None  # wall clock [s] and stamp [ns] of the first sample
         self._gyro_service = self.create_service(SetGyroPower, "set_gyro_power", self._set_gyro_power)
         self._rate_service = self.create_service(SetSampleRate, "set_sample_rate", self._set_sample_rate)
@@ -57,8 +59,10 @@ class ImuDriverNode(Node):
         return 0.0
 
     def _until_next_s(self) -> float:
-        if self._rate_factor == 0.0 or self._begin is None:
-            return 0.0
+        if self._throttle:
+            return 0.0 if self._throttle.open else LOOK_S
+        if self._begin is None:
+            return LOOK_S
         begin_s, begin_ns = self._begin
         due_s = begin_s + (self._player.next_ns - begin_ns) / NANOSECONDS / self._rate_factor
         return due_s - time.monotonic()
@@ -67,6 +71,8 @@ class ImuDriverNode(Node):
         sample = self._player.take()
         self._publisher.publish(imu_message(sample, 0, self._frame_id))
         self._truth.publish_until(int(sample.stamp_ns[0]))
+        if self._throttle:
+            self._throttle.sent(int(sample.stamp_ns[0]))
 
     def _set_gyro_power(self, request: SetGyroPower.Request, response: SetGyroPower.Response) -> SetGyroPower.Response:
         if self._player.next is None:

@@ -31,10 +31,13 @@ class NoticeBoard:
         self._publisher.publish(message)
 
     def _log_once(self, notice: Notice) -> None:
-        if notice.kind not in self._told:
-            self._told.add(notice.kind)
-            logger = self._node.get_logger()
-            (logger.error if notice.level is Level.ERROR else logger.warning)(notice.text)
+        if notice.kind in self._told:
+            return
+        self._told.add(notice.kind)
+        if notice.level is Level.ERROR:
+            self._node.get_logger().error(notice.text)
+        else:
+            self._node.get_logger().warning(notice.text)
 
     def _status(self, notices: list[Notice]) -> DiagnosticStatus:
         worst = max(notices, key=lambda n: n.level.value, default=None)

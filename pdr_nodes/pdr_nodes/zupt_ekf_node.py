@@ -34,7 +34,8 @@ class ZuptEkfNode(Node):
         self._health = self.create_publisher(FilterHealth, "filter_health", STATUS)
         self._tf = TransformBroadcaster(self) if params.node.publish_tf else None
         self._board = NoticeBoard(self, "track", lambda: self._filter.notices)
-        self._idle = IdleWatch(self, params.node.idle_s, lambda: self._publish_steps(self._filter.finish()))
+        # twice the time after which the stance detector gives out its last samples, so that none comes after the step
+        self._idle = IdleWatch(self, 2.0 * params.node.idle_s, lambda: self._publish_steps(self._filter.finish()))
         self._health_timer = self.create_timer(HEALTH_PERIOD_S, self._publish_health)
         self._reset_service = self.create_service(ResetEstimate, "reset_estimate", self._reset)
         self.create_subscription(StanceImu, "stance", self._take, OWN)

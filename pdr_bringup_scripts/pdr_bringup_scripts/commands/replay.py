@@ -17,14 +17,15 @@ def replay(
     Example: `pdr replay walk.csv --rate 2`
     """
     from pdr_bringup_scripts.live import live_run
+    from pdr_bringup_scripts.offline import only_sensor
     from pdr_bringup_scripts.run_folder import new_run_folder, show_result
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.params import Params, changed
     from pdr_core.params_file import load_params
     from pdr_core.recording import open_recording
 
-    open_recording(recording)  # a bad path is told before anything starts
+    source = only_sensor(open_recording(recording), sensor)
     chosen = load_params(params) if params else Params()
-    choice = {"device": "replayed", "recording": str(recording.resolve()), "rate_factor": rate, "sensor": sensor}
+    choice = {"device": "replayed", "recording": str(recording.resolve()), "rate_factor": rate, "sensor": source.name}
     folder = out or new_run_folder(f"replay-{recording.stem}")
-    show_result(live_run(changed(chosen, "driver", **choice), folder, None, Terminal()), folder)
+    show_result(live_run(changed(chosen, "driver", **choice), folder, None, Terminal(), source), folder)
