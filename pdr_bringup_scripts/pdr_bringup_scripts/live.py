@@ -5,6 +5,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from pdr_bringup_scripts.book import Book, make_folder
 from pdr_bringup_scripts.chain import Chain, stay_on_this_machine
@@ -16,7 +17,9 @@ from pdr_core.evaluation.result import Result
 from pdr_core.params import Params, params_as_mapping
 from pdr_core.recording import Sensor, open_recording
 from pdr_core.records import length
+from pdr_core.simulation import walk_duration_s
 from pdr_core.warmup import warm_up
+from pdr_nodes.convert import stamp_ns
 
 PIPELINE = "foot_inertial, live"
 BAG = "recording"
@@ -44,7 +47,7 @@ def record(params: Params, out: Path, domain: int | None, terminal: Terminal) ->
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
         bag = stack.enter_context(bag_writer(out / BAG))
-        watch = Watch(bag.write, show)
+        watch = Watch(bag.write, show, total(params))
         ears = stack.enter_context(Ears(watch.take))
         chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params)))
         while not (chain.driver_is_done and watch.quiet_s > QUIET_S):
@@ -57,9 +60,11 @@ def record(params: Params, out: Path, domain: int | None, terminal: Terminal) ->
 class Watch:
     """Passes every message on to the recording and shows where the foot is."""
 
-    def __init__(self, write: Callable[[str, str, int, bytes], None], show: Callable[[str], None]) -> None:
+    def __init__(self, write: Callable[[str, str, int, bytes], None], show: Callable[[str], None], of: str) -> None:
         self._write = write
         self._show = show
+        self._of = of
+        self._first_ns: int | None = None
         self._last_s = time.monotonic()
         self._odometry = 0
         self._steps = 0
@@ -77,8 +82,21 @@ class Watch:
         self._steps += topic == "step"
         self._odometry += topic == "odom"
         if topic == "odom" and self._odometry % SHOW_EVERY == 0:
-            p = message(name, cdr).pose.pose.position  # type: ignore[attr-defined]
-            self._show(f"{self._steps} strides, now at x {p.x:+.2f} m, y {p.y:+.2f} m, height {p.z:+.2f} m")
+            self._show_estimate(message(name, cdr))
+
+    def _show_estimate(self, odometry: Any) -> None:
+        now_ns, p = stamp_ns(odometry.header.stamp), odometry.pose.pose.position
+        self._first_ns = now_ns if self._first_ns is None else self._first_ns
+        passed_s = (now_ns - self._first_ns) * 1e-9
+        place = f"x {p.x:+.2f} m, y {p.y:+.2f} m, height {p.z:+.2f} m"
+        self._show(f"{passed_s:.0f}{self._of} s, {self._steps} strides, now at {place}")
+
+
+def total(params: Params) -> str:
+    """Return how long the walk will take, as far as that is known before."""
+    if params.driver.device != "simulated":
+        return ""
+    return f" of {walk_duration_s(params.driver):.0f}"
 
 
 def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:

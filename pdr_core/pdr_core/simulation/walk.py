@@ -26,15 +26,24 @@ class SimulatedWalk:
 def simulated_walk(params: DriverParams, place: PlaceParams | None = None, start_ns: int = 0) -> SimulatedWalk:
     """Simulate the walk that the parameters name; its first sample is stamped `start_ns`."""
     where = place or PlaceParams()
-    phases = [Phase(REST_S), *walk_phases(params.walk, params.walk_length_m), Phase(REST_S)]
-    duration_s = sum(p.duration_s for p in phases)
-    time_s: Floats = np.arange(0.0, duration_s, 1.0 / params.sample_rate_hz, dtype=np.float64)
+    phases = all_phases(params)
+    time_s: Floats = np.arange(0.0, walk_duration_s(params), 1.0 / params.sample_rate_hz, dtype=np.float64)
     stamp_ns = stamp_ns_from_seconds(time_s) + start_ns
     motion = move(phases, time_s)
     gravity = gravity_mps2(np.radians(where.latitude_deg), where.height_m)
     imu = measure(motion, stamp_ns, params.sample_rate_hz, gravity, SENSOR_MODELS[params.sensor_model], params.seed)
     truth = Truth(TruthKind.POSITION, stamp_ns, motion.position_m)
     return SimulatedWalk(imu, motion, orientation(motion).as_quat(), truth)
+
+
+def all_phases(params: DriverParams) -> list[Phase]:
+    """Return the phases of a walk that begins and ends at rest."""
+    return [Phase(REST_S), *walk_phases(params.walk, params.walk_length_m), Phase(REST_S)]
+
+
+def walk_duration_s(params: DriverParams) -> float:
+    """Return how long the walk takes [s]."""
+    return sum(phase.duration_s for phase in all_phases(params))
 
 
 def walk_phases(name: str, length_m: float) -> list[Phase]:
