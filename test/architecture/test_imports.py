@@ -13,10 +13,8 @@ STAGE = f"{BASE} pdr_core.maths scipy"
 # in the order in which a sample meets them; a stage that does not exist yet has its row already
 STAGES = ("intake", "stance", "strapdown", "eskf", "attitude", "heading", "gait", "power", "fusion")
 ALL_STAGES = " ".join(f"pdr_core.{stage}" for stage in STAGES)
-HELPERS = (
-    "pdr_nodes.convert pdr_nodes.declare pdr_nodes.idle pdr_nodes.notice_board pdr_nodes.qos pdr_nodes.run "
-    "pdr_nodes.throttle pdr_nodes.transforms"
-)
+PARTS_OF_NODES = {m.split(".")[1] for m in modules() if m.startswith("pdr_nodes.")} - {"devices"}
+HELPERS = " ".join(f"pdr_nodes.{part}" for part in sorted(PARTS_OF_NODES) if not part.endswith("_node"))
 # `warmup` compiles all stages, so that a node that is started alone finds the cache that the others use
 NODE = f"{BASE} {MESSAGES} rclpy {HELPERS} pdr_core.warmup"
 RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation"
