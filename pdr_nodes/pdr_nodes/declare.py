@@ -16,15 +16,19 @@ def read_params(node: Node, groups: tuple[str, ...]) -> Params:
     """Return the parameters of these groups; those that the user did not give are declared with their defaults.
 
     The node is made with `automatically_declare_parameters_from_overrides`, so what the user gave is declared
-    already. One file serves all nodes: values of other groups are checked too, but not declared.
+    already, but without text and bounds. One file serves all nodes: values of other groups are checked too.
     """
     given = {n: p.value for n, p in node.get_parameters_by_prefix("").items() if n.split(".")[0] not in ROS_OWN}
     params = params_from_mapping(nested(given))
     for group in groups:
         for field in dataclasses.fields(GROUPS[group]):
             name = f"{group}.{field.name}"
-            if not node.has_parameter(name):
-                node.declare_parameter(name, field.default, descriptor(field))
+            shown = descriptor(field)
+            if node.has_parameter(name):
+                shown.type = node.get_parameter(name).type_.value
+                node.set_descriptor(name, shown)
+            else:
+                node.declare_parameter(name, field.default, shown)
     return params
 
 
