@@ -1,6 +1,7 @@
 """Node `zupt_ekf`: samples with verdicts in (`stance`); `odom`, `step`, `filter_health` and perhaps tf out."""
 
 from nav_msgs.msg import Odometry
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 
 from pdr_core.eskf import ZuptFilter
@@ -9,11 +10,12 @@ from pdr_core.records import length
 from pdr_core.warmup import warm_up
 from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
 from pdr_msgs.srv import ResetEstimate
-from pdr_nodes.convert import health_message, odometry_message, pose_of_reset, stance_block, step_message
+from pdr_nodes.convert import health_message, odometry_message, pose_of_reset, stamp_ns, stance_block, step_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch
 from pdr_nodes.notice_board import NoticeBoard
 from pdr_nodes.qos import OWN, STATUS
+from pdr_nodes.repeats import Repeats
 from pdr_nodes.run import run
 from pdr_nodes.transforms import TransformBroadcaster
 
@@ -38,10 +40,14 @@ class ZuptEkfNode(Node):
         self._idle = IdleWatch(self, 2.0 * params.node.idle_s, lambda: self._publish_steps(self._filter.finish()))
         self._health_timer = self.create_timer(HEALTH_PERIOD_S, self._publish_health)
         self._reset_service = self.create_service(ResetEstimate, "reset_estimate", self._reset)
-        self.create_subscription(StanceImu, "stance", self._take, OWN)
+        self._repeats = Repeats()
+        events = SubscriptionEventCallbacks(matched=self._repeats.matched)
+        self.create_subscription(StanceImu, "stance", self._take, OWN, event_callbacks=events)
 
     def _take(self, message: StanceImu) -> None:
         self._idle.fed()
+        if self._repeats.has(stamp_ns(message.imu.header.stamp)):
+            return
         nav, steps = self._filter.run(stance_block(message))
         for i in range(length(nav)):
             odometry = odometry_message(nav, i, *self._frames)
