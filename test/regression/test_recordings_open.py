@@ -1,27 +1,13 @@
 """Every real recording opens, and holds what its authors say it holds."""
 
-import os
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from pdr_core.recording import RecordingError, open_recording
 from pdr_core.records import TruthKind, joined
 
-ROOT = Path(__file__).resolve().parents[2]
 TILE_STRIDES = {31: 33, 33: 47, 36: 58, 39: 80, 43: 60}
 TILE_SAMPLES = {31: 8549, 33: 11000, 36: 14000, 39: 20000, 43: 15500}
-
-
-@pytest.fixture(scope="module")
-def recordings():
-    folder = Path(os.environ.get("PDR_RECORDINGS", ROOT / "../shared/recordings"))
-    if not folder.is_dir():
-        if os.environ.get("PDR_REQUIRE_RECORDINGS") == "1":
-            pytest.fail(f"PDR_REQUIRE_RECORDINGS is set but there is no folder {folder}")
-        pytest.skip(f"the real recordings are not at {folder}; say where in PDR_RECORDINGS")
-    return folder
 
 
 def check(session, name, count, rate_hz):

@@ -1,0 +1,33 @@
+"""What tests of every folder share: the real recordings and a ROS graph that nobody else is on."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from support.domain import own_domain
+
+CHECKOUT = Path(__file__).resolve().parents[1]
+QUICK_DISCOVERY = CHECKOUT / "pdr_bringup_scripts" / "pdr_bringup_scripts" / "fastdds_quick.xml"
+
+
+@pytest.fixture(scope="session")
+def recordings() -> Path:
+    """The folder of the real recordings; without it a test is skipped, or fails where they are required."""
+    folder = Path(os.environ.get("PDR_RECORDINGS", CHECKOUT / "../shared/recordings"))
+    if not folder.is_dir():
+        if os.environ.get("PDR_REQUIRE_RECORDINGS") == "1":
+            pytest.fail(f"PDR_REQUIRE_RECORDINGS is set but there is no folder {folder}")
+        pytest.skip(f"the real recordings are not at {folder}; say where in PDR_RECORDINGS")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def ros_environment(tmp_path_factory):
+    """A ROS domain of this session alone, on this machine alone; processes that a test starts inherit it."""
+    with own_domain() as domain, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", str(domain))
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        patch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(QUICK_DISCOVERY))
+        patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
+        yield domain

@@ -1,0 +1,141 @@
+import numpy as np
+import pytest
+from geometry_msgs.msg import PoseStamped
+from sensor_msgs.msg import Imu
+
+from pdr_core.params import DriverParams
+from pdr_core.records import length
+from pdr_core.simulation import simulated_walk
+from pdr_msgs.srv import SetGyroPower, SetSampleRate
+from pdr_nodes.imu_driver_node import LOOK_S, ImuDriverNode
+from support.bench import Bench
+from support.walks import stamps, straight_walk, write_csv
+
+SIMULATED = {"driver__walk": "still", "driver__sample_rate_hz": 200.0, "driver__rate_factor": 1000.0}
+SAMPLES = 1200  # six seconds
+SETTLING_NS = 50_000_000
+
+
+class Driver:
+    """A driver that works only when the test lets it."""
+
+    def __init__(self, bench):
+        self.bench, self.node = bench, bench.node
+        self.samples = bench.hear(Imu, "imu/data_raw")
+        self.done = False
+
+    def work_until(self, count):
+        """Let it work until so many samples have come."""
+
+        def enough():
+            if self.node._player.taken < count:
+                self.done = self.node.work() is None
+            return len(self.samples) >= count
+
+        self.bench.until(enough, f"{count} samples")
+
+    def work_to_the_end(self):
+        self.work_until(1)
+        self.bench.until(lambda: self.done or self.node.work() is None, "the end")
+        self.bench.until(lambda: len(self.samples) == self.node._player.taken, "the last samples")
+
+
+@pytest.fixture
+def driver():
+    with Bench(ImuDriverNode, **SIMULATED) as bench:
+        yield Driver(bench)
+
+
+def measured(samples):
+    """Which samples hold an angular rate."""
+    return np.array([m.angular_velocity_covariance[0] != -1.0 for m in samples])
+
+
+def test_it_waits_for_a_subscriber_and_then_gives_everything():
+    params = DriverParams(walk="straight", walk_length_m=1.2, sensor_model="ideal")
+    with Bench(ImuDriverNode, driver__walk="straight", driver__walk_length_m=1.2, driver__rate_factor=1000.0) as bench:
+        for _ in range(5):
+            assert bench.node.work() == LOOK_S
+            bench.spin()
+        driver, truth = Driver(bench), bench.hear(PoseStamped, "ground_truth")
+        driver.work_to_the_end()
+        bench.until(lambda: len(truth) == len(driver.samples), "the truth beside every sample")
+    expected = simulated_walk(params, start_ns=stamps(driver.samples)[0])
+    assert stamps(driver.samples) == expected.imu.stamp_ns.tolist() == stamps(truth)
+    np.testing.assert_array_equal([m.pose.position.x for m in truth], expected.truth.position_m[:, 0])
+    assert {m.header.frame_id for m in driver.samples} == {"imu_link"}
+
+
+def test_a_recording_is_replayed_bit_by_bit(tmp_path):
+    block = straight_walk(1).imu
+    path = str(write_csv(tmp_path / "walk.csv", block))
+    with Bench(ImuDriverNode, driver__device="replayed", driver__recording=path, driver__rate_factor=1000.0) as bench:
+        driver = Driver(bench)
+        driver.work_to_the_end()
+    assert stamps(driver.samples) == block.stamp_ns.tolist()
+    assert [m.angular_velocity.y for m in driver.samples] == block.gyro_radps[:, 1].tolist()
+    assert [m.linear_acceleration.x for m in driver.samples] == block.accel_mps2[:, 0].tolist()
+
+
+def test_it_keeps_the_pace_that_it_is_given(driver):
+    driver.node._rate_factor = 1e-9
+    driver.work_until(1)
+    for _ in range(5):
+        assert driver.node.work() == LOOK_S
+        driver.bench.spin()
+    assert len(driver.samples) == 1
+
+
+def test_the_gyro_is_off_from_the_stated_stamp_on_and_settles_when_switched_on(driver):
+    driver.work_until(200)
+    off = driver.bench.call(SetGyroPower, "set_gyro_power", powered=False)
+    driver.work_until(500)
+    on = driver.bench.call(SetGyroPower, "set_gyro_power", powered=True)
+    driver.work_to_the_end()
+    assert off.success
+    assert on.success
+    assert (off.settling_time, on.settling_time) == (0.0, 0.05)
+    off_ns, on_ns = (t.sec * 10**9 + t.nanosec for t in (off.effective, on.effective))
+    at_ns = np.array(stamps(driver.samples))
+    assert at_ns[0] < off_ns < on_ns < at_ns[-1] - SETTLING_NS
+    np.testing.assert_array_equal(measured(driver.samples), (at_ns < off_ns) | (at_ns >= on_ns + SETTLING_NS))
+    assert all(m.angular_velocity.y == 0.0 for m in driver.samples if m.angular_velocity_covariance[0] == -1.0)
+    assert len(driver.samples) == SAMPLES
+
+
+def test_switching_on_what_is_on_needs_no_settling(driver):
+    driver.work_until(200)
+    assert driver.bench.call(SetGyroPower, "set_gyro_power", powered=True).success
+    driver.work_to_the_end()
+    assert measured(driver.samples).all()
+
+
+def test_the_rate_holds_from_the_stated_stamp_on(driver):
+    driver.work_until(200)
+    answer = driver.bench.call(SetSampleRate, "set_sample_rate", rate=55.0)
+    driver.work_to_the_end()
+    assert answer.success
+    assert answer.rate == pytest.approx(50.0, rel=1e-6)
+    at_ns = np.array(stamps(driver.samples))
+    since = np.searchsorted(at_ns, answer.effective.sec * 10**9 + answer.effective.nanosec)
+    assert 200 <= since < len(at_ns) - 100
+    np.testing.assert_allclose(np.diff(at_ns[: since + 1]), 5_000_000, atol=2)
+    np.testing.assert_allclose(np.diff(at_ns[since:]), 20_000_000, atol=2)
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, float("nan")])
+def test_an_impossible_rate_is_refused(driver, rate):
+    driver.work_until(10)
+    answer = driver.bench.call(SetSampleRate, "set_sample_rate", rate=rate)
+    assert (answer.success, answer.message) == (False, f"rate = {rate}: must be positive [Hz]")
+
+
+def test_calls_at_the_wrong_time_are_refused(driver):
+    assert not driver.bench.call(SetSampleRate, "set_sample_rate", rate=50.0).success
+    driver.work_to_the_end()
+    assert not driver.bench.call(SetSampleRate, "set_sample_rate", rate=50.0).success
+    assert not driver.bench.call(SetGyroPower, "set_gyro_power", powered=False).success
+
+
+def test_the_length_of_the_simulation_is_known():
+    assert length(simulated_walk(DriverParams(walk="still")).imu) == SAMPLES

@@ -1,0 +1,105 @@
+import math
+
+import numpy as np
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import Imu
+
+from pdr_nodes.imu_ingestion_node import ImuIngestionNode
+from pdr_nodes.qos import STATUS
+from support.bench import Bench
+from support.walks import BEGIN_NS, imu_messages, stamps, still
+
+FOREIGN = {
+    kind.name: QoSProfile(depth=10, reliability=kind)
+    for kind in (ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE)
+}
+NAMED_WITHIN_S = 3.0
+
+
+def told(diagnostics):
+    """The latest of what the node says is wrong: {kind: (level, text)}."""
+    status = [s for m in diagnostics for s in m.status if s.name == "imu_ingestion: samples"][-1:]
+    return {item.key: (s.level, item.value) for s in status for item in s.values}
+
+
+def driven(bench, messages, expected, qos=FOREIGN["BEST_EFFORT"]):
+    """What comes out of the node for these messages of a foreign driver, and what it says on /diagnostics."""
+    out, diagnostics = bench.hear(Imu, "imu/data"), bench.hear(DiagnosticArray, "/diagnostics", STATUS)
+    bench.feed(bench.publisher(Imu, "imu/data_raw", qos), messages)
+    bench.until(lambda: len(out) >= expected, f"{expected} samples")
+    return out, diagnostics
+
+
+@pytest.mark.parametrize("reliability", FOREIGN)
+def test_any_driver_connects(reliability):
+    block = still(1.0, BEGIN_NS)
+    with Bench(ImuIngestionNode) as bench:
+        out, _ = driven(bench, imu_messages(block), 100, FOREIGN[reliability])
+    assert stamps(out) == block.stamp_ns.tolist()
+    assert {m.header.frame_id for m in out} == {"foot"}
+    assert all(m.orientation_covariance[0] == -1.0 for m in out)
+
+
+def with_faults(good):
+    """The messages with a NaN, an infinity, a repeated stamp and a late sample among them."""
+    bad = imu_messages(still(0.04, BEGIN_NS + 5_000_000))
+    bad[0].angular_velocity.y, bad[1].linear_acceleration.z = math.nan, math.inf
+    bad[2].header.stamp = good[59].header.stamp
+    return [*good[:20], bad[0], *good[20:40], bad[1], *good[40:60], bad[2], *good[60:80], bad[3], *good[80:]]
+
+
+def test_bad_samples_never_come_out_and_are_named():
+    good = imu_messages(still(1.0, BEGIN_NS))
+    with Bench(ImuIngestionNode) as bench:
+        out, diagnostics = driven(bench, with_faults(good), 100)
+        kinds = {"not_finite", "duplicate_stamp", "late_stamp"}
+        bench.until(lambda: set(told(diagnostics)) == kinds, f"{kinds} on /diagnostics", NAMED_WITHIN_S)
+    assert stamps(out) == stamps(good)
+    values = [[m.angular_velocity.y, m.linear_acceleration.z, *m.angular_velocity_covariance] for m in out]
+    assert np.isfinite(values).all()
+    assert {level for level, _ in told(diagnostics).values()} == {b"\x01"}
+    assert told(diagnostics)["not_finite"][1].startswith("2 x ")
+
+
+@pytest.mark.parametrize(
+    ("field", "factor", "advice"),
+    [("accel_mps2", 1 / 9.80665, "accel_unit to g"), ("gyro_radps", 180 / np.pi, "gyro_unit to deg/s")],
+)
+def test_a_wrong_unit_is_named(field, factor, advice):
+    block = still(1.5, BEGIN_NS)
+    block.gyro_radps[50:100, 1] = 3.0
+    block = block._replace(**{field: getattr(block, field) * factor})
+    kind = advice.split()[0]
+    with Bench(ImuIngestionNode) as bench:
+        _, diagnostics = driven(bench, imu_messages(block), 150)
+        bench.until(lambda: kind in told(diagnostics), f"{kind} on /diagnostics", NAMED_WITHIN_S)
+    level, text = told(diagnostics)[kind]
+    assert level == b"\x02"
+    assert advice in text
+
+
+def test_a_sensor_upside_down_is_only_rotated():
+    block = still(1.5, BEGIN_NS)
+    block.gyro_radps[:] = [0.1, 0.2, 0.3]
+    block.accel_mps2[:] = [0.4, 0.5, -9.8]
+    with Bench(ImuIngestionNode, intake__mounting_roll_rad=math.pi) as bench:
+        out, diagnostics = driven(bench, imu_messages(block), 150)
+        bench.until(lambda: len(diagnostics) >= 2, "two diagnoses")
+    rates = [[m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z] for m in out]
+    forces = [[m.linear_acceleration.x, m.linear_acceleration.y, m.linear_acceleration.z] for m in out]
+    np.testing.assert_allclose(rates, np.tile([0.1, -0.2, -0.3], (150, 1)), atol=1e-12)
+    np.testing.assert_allclose(forces, np.tile([0.4, -0.5, 9.8], (150, 1)), atol=1e-12)
+    assert stamps(out) == block.stamp_ns.tolist()
+    assert told(diagnostics) == {}
+
+
+def test_a_gyro_that_is_off_stays_off_and_is_named():
+    block = still(1.0, BEGIN_NS)
+    block.gyro_sd_radps[30:60] = -1.0
+    with Bench(ImuIngestionNode) as bench:
+        out, diagnostics = driven(bench, imu_messages(block), 100)
+        bench.until(lambda: "gyro_off" in told(diagnostics), "gyro_off on /diagnostics", NAMED_WITHIN_S)
+    assert [i for i, m in enumerate(out) if m.angular_velocity_covariance[0] == -1.0] == list(range(30, 60))
+    assert told(diagnostics)["gyro_off"][1].startswith("30 x ")

@@ -1,0 +1,71 @@
+import numpy as np
+import pytest
+from sensor_msgs.msg import Imu
+
+from pdr_core.intake import Ingestion
+from pdr_core.params import Params
+from pdr_core.records import joined, length
+from pdr_core.stance import StanceDetection
+from pdr_msgs.msg import StanceImu
+from pdr_nodes.stance_detector_node import StanceDetectorNode
+from support.bench import Bench
+from support.walks import imu_messages, stamps, still, straight_walk
+
+STRIDES = 3
+
+
+@pytest.fixture(scope="module")
+def trusted():
+    """The samples of a short walk as ingestion passes them on."""
+    return Ingestion(Params().intake).run(straight_walk(STRIDES).imu)
+
+
+def held_back(block):
+    """How many samples wait for later ones."""
+    params = Params()
+    return length(block) - length(StanceDetection(params.stance, params.place).run(block))
+
+
+@pytest.fixture(scope="module")
+def verdicts(trusted):
+    """What the node says of the walk, and of a rest that begins after the node has given out the end of the walk."""
+    later = still(0.5, int(trusted.stamp_ns[-1]) + 10_000_000)
+    with Bench(StanceDetectorNode, node__idle_s=0.3) as bench:
+        heard = bench.hear(StanceImu, "stance")
+        publisher = bench.publisher(Imu, "imu/data")
+        bench.feed(publisher, imu_messages(trusted))
+        bench.until(lambda: len(heard) >= length(trusted), "the verdict on every sample")
+        bench.feed(publisher, imu_messages(later))
+        bench.until(lambda: len(heard) >= length(trusted) + 50, "the verdicts on what came later")
+        return heard, joined([trusted, later])
+
+
+def test_each_sample_comes_out_once_with_its_stamp(verdicts):
+    heard, fed = verdicts
+    assert stamps(heard) == fed.stamp_ns.tolist()
+
+
+def test_the_end_of_a_walk_had_to_be_flushed(trusted):
+    assert 0 < held_back(trusted) < length(trusted)
+
+
+def test_the_sample_is_passed_on_as_it_is(verdicts):
+    heard, fed = verdicts
+    assert [m.imu.angular_velocity.y for m in heard] == fed.gyro_radps[:, 1].tolist()
+    assert [m.imu.linear_acceleration.z for m in heard] == fed.accel_mps2[:, 2].tolist()
+    assert {m.imu.header.frame_id for m in heard} == {"foot"}
+    assert {m.magnetic_field.magnetic_field_covariance[0] for m in heard} == {-1.0}
+
+
+def test_the_foot_stands_between_its_strides(verdicts):
+    stance = np.array([m.stance for m in verdicts[0]])
+    assert np.count_nonzero(np.diff(stance.astype(int)) == -1) == STRIDES
+    assert stance[0]
+    assert stance[-1]
+
+
+def test_a_verdict_follows_from_its_statistic_and_stays_finite(verdicts):
+    numbers = np.array([[m.statistic, m.threshold] for m in verdicts[0]])
+    assert np.isfinite(numbers).all()
+    standing = np.array([m.stance for m in verdicts[0]])
+    assert (numbers[standing, 0] <= numbers[standing, 1]).all()
