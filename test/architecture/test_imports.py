@@ -17,6 +17,7 @@ PARTS_OF_NODES = {m.split(".")[1] for m in modules() if m.startswith("pdr_nodes.
 HELPERS = " ".join(f"pdr_nodes.{part}" for part in sorted(PARTS_OF_NODES) if not part.endswith("_node"))
 # `warmup` compiles all stages, so that a node that is started alone finds the cache that the others use
 NODE = f"{BASE} {MESSAGES} rclpy {HELPERS} pdr_core.warmup"
+READS = "pdr_nodes.convert pdr_nodes.notice_board pdr_nodes.qos"
 RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation"
 
 # module or package -> what it and all below it may import beside the standard library and itself; the longest name wins
@@ -47,11 +48,11 @@ MAY_IMPORT = {
     "pdr_nodes.imu_ingestion_node": f"{NODE} pdr_core.intake",
     "pdr_nodes.stance_detector_node": f"{NODE} pdr_core.stance",
     "pdr_nodes.zupt_ekf_node": f"{NODE} pdr_core.eskf",
-    # commands see stages through the pipeline only
-    "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich dask yaml",
-    "pdr_bringup_scripts.listener": f"{BASE} rclpy ament_index_python pdr_core.recording.bag_writer pdr_nodes.qos",
+    # commands see stages through the pipeline only, and of the nodes what reads their messages
+    "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich dask yaml {READS}",
+    "pdr_bringup_scripts.listener": f"{BASE} {READS} rclpy ament_index_python pdr_core.recording.bag_writer",
     # reads back our own messages, which are no recording of samples; the door to those is `open_recording`
-    "pdr_bringup_scripts.live_recording": f"{BASE} rosbags pdr_core.pipeline pdr_nodes.convert pdr_nodes.notice_board",
+    "pdr_bringup_scripts.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline",
 }
 ROOTS = ("pdr_core", "pdr_nodes")  # a row for what has none of its own; not a layer whose modules see each other
 IMPURE = {"time", "datetime", "logging", "warnings", "sys", "subprocess", "threading"}
