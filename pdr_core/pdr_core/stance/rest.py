@@ -21,6 +21,7 @@ from pdr_core.maths.vector import norm
 from pdr_core.records import Flags, Floats, ImuBlock, Stamps
 
 CAPACITY = 8192  # samples of a rest that are remembered
+GAP_NS = 100_000_000  # in a longer time without samples the foot may have moved
 
 
 class RestLimits(NamedTuple):
@@ -63,13 +64,30 @@ def rests(imu: ImuBlock, limits: RestLimits, state: RestState) -> tuple[Floats, 
     n = imu.stamp_ns.shape[0]
     rate, sd = np.zeros((n, 3)), np.zeros(n)
     for i in range(n):
+        if interrupted(imu.stamp_ns[i], state):
+            rate[i], sd[i] = ended(limits, state)
         remember(imu.stamp_ns[i], imu.gyro_radps[i], state)
         if imu.gyro_sd_radps[i] < 0.0 or moving(limits, state):
-            evidence, sd[i] = best_window(limits, state)
-            rate[i] = evidence
-            state.size[0] = 0
-            state.first[0] = False
+            rate[i], sd[i] = ended(limits, state)
     return rate, sd
+
+
+@compiled
+def interrupted(stamp_ns: int, state: RestState) -> bool:
+    """Return whether samples are missing before this one, or the clock has jumped back."""
+    if state.size[0] == 0:
+        return False
+    step_ns = stamp_ns - state.stamp_ns[state.size[0] - 1]
+    return step_ns < 0 or step_ns > GAP_NS
+
+
+@compiled
+def ended(limits: RestLimits, state: RestState) -> tuple[Floats, float]:
+    """Return what the rest has shown, and begin the next one."""
+    evidence = best_window(limits, state)
+    state.size[0] = 0
+    state.first[0] = False
+    return evidence
 
 
 @compiled
@@ -96,7 +114,7 @@ def remember(stamp_ns: int, rate_radps: Floats, state: RestState) -> None:
 def moving(limits: RestLimits, state: RestState) -> bool:
     """Return whether the mean rate over the last moments is that of a moving foot."""
     newest = state.size[0] - 1
-    oldest = newest
+    oldest = max(0, newest - 1)
     while oldest > 0 and state.stamp_ns[newest] - state.stamp_ns[oldest] < limits.smoothing_ns:
         oldest -= 1
     duration_s = (state.stamp_ns[newest] - state.stamp_ns[oldest]) * 1e-9
