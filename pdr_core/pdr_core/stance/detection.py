@@ -45,11 +45,11 @@ class StanceDetection:
     @property
     def latency_s(self) -> float:
         """The longest time [s] from a sample to its verdict."""
-        return self._params.window_s / 2.0 + self._params.dip_max_s
+        return self._params.window_s / 2.0 + max(self._params.stance_min_s, self._params.dip_max_s)
 
     def run(self, imu: ImuBlock) -> StanceBlock:
         """Return the samples, of these and earlier ones, whose verdict is known now."""
-        newest_ns = self._samples.stamp_ns[-1:]
+        newest_ns = self._samples.stamp_ns[-1:] if length(self._samples) else imu.stamp_ns[:1]
         jumps_back = np.flatnonzero(np.diff(imu.stamp_ns, prepend=newest_ns[: length(imu)]) < 0)
         judged = []
         for start, stop in pairwise([0, *jumps_back, length(imu)]):
