@@ -4,7 +4,7 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, STANDARD_GRAVITY_MPS2
 from pdr_core.intake.plausibility import Plausibility
-from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
+from pdr_core.intake.stream_guard import FAULTS, NONE_YET, Fault, GuardLimits, admitted, fresh_state
 from pdr_core.maths import quaternion
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import rotated
@@ -82,8 +82,8 @@ class Ingestion:
 
 def intervals_s(stamps_ns: Stamps, before_ns: int, longest_s: float) -> Floats:
     """Return the time [s] from each sample's predecessor, (n,), bounded by a gap's length, which the first one gets."""
-    first_ns = before_ns if before_ns >= 0 else -(10**18)
-    interval_s = np.diff(stamps_ns, prepend=np.int64(first_ns)) / NANOSECONDS
+    before = [before_ns] if before_ns != NONE_YET else stamps_ns[:1]
+    interval_s = np.diff(stamps_ns, prepend=np.asarray(before, np.int64)) / NANOSECONDS
     return np.where(interval_s > 0.0, np.minimum(interval_s, longest_s), longest_s)
 
 

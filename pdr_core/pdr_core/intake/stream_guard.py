@@ -9,6 +9,10 @@ from numpy.typing import NDArray
 from pdr_core.maths.compiled import compiled
 from pdr_core.records import ImuBlock, Level, Stamps
 
+NONE_YET = -(2**63)  # stamps may be negative: a recording may count from a later moment
+LATEST_NS = 2**62  # in the year 2116; so no difference of two stamps overflows
+ABSURD = 1e6  # no sensor shows so much, in whatever unit, and the square of much more would drown all else
+
 
 class Fault(IntEnum):
     """What can be wrong with a sample."""
@@ -24,7 +28,7 @@ class Fault(IntEnum):
 FAULTS = {
     Fault.DUPLICATE: ("duplicate_stamp", Level.WARN, "samples repeat the stamp before them: left out"),
     Fault.LATE: ("late_stamp", Level.WARN, "samples come after younger ones: left out"),
-    Fault.NOT_FINITE: ("not_finite", Level.WARN, "samples hold NaN or infinity: left out"),
+    Fault.NOT_FINITE: ("not_finite", Level.WARN, "samples hold NaN, infinity or absurd numbers: left out"),
     Fault.RESTART: ("clock_jumped_back", Level.WARN, "the stamps jump back: the track goes on from where it was"),
     Fault.GAP: ("gap", Level.WARN, "samples are missing: the position is uncertain after the gap"),
 }
@@ -40,12 +44,12 @@ class GuardLimits(NamedTuple):
 class GuardState(NamedTuple):
     """The guard's memory."""
 
-    last_ns: Stamps  # (1,) stamp of the last sample that passed; -1: none yet
+    last_ns: Stamps  # (1,) stamp of the last sample that passed, or NONE_YET
 
 
 def fresh_state() -> GuardState:
     """Return the memory of a guard that has seen nothing."""
-    return GuardState(np.full(1, -1))
+    return GuardState(np.full(1, NONE_YET))
 
 
 @compiled
@@ -54,10 +58,11 @@ def admitted(block: ImuBlock, limits: GuardLimits, state: GuardState) -> NDArray
     faults = np.zeros(block.stamp_ns.shape[0], np.int64)
     for i in range(block.stamp_ns.shape[0]):
         step_ns = block.stamp_ns[i] - state.last_ns[0]
-        if not (np.all(np.isfinite(block.gyro_radps[i])) and np.all(np.isfinite(block.accel_mps2[i]))):
+        plausible = np.all(np.abs(block.gyro_radps[i]) < ABSURD) and np.all(np.abs(block.accel_mps2[i]) < ABSURD)
+        if not (plausible and -LATEST_NS < block.stamp_ns[i] < LATEST_NS):
             faults[i] = Fault.NOT_FINITE
             continue
-        if state.last_ns[0] >= 0:
+        if state.last_ns[0] != NONE_YET:
             if step_ns == 0:
                 faults[i] = Fault.DUPLICATE
                 continue
