@@ -16,9 +16,10 @@ MOVING_RADPS = 0.5
 @compiled
 def align(stamp_ns: int, force_mps2: Floats, rate_radps: Floats, s: Settings, state: FilterState) -> None:
     """Take one sample into the mean specific force and level the foot by it."""
-    if state.alignment_start_ns < 0:
-        state.alignment_start_ns = stamp_ns
+    if state.force_samples == 0:
         state.P[:] = np.diag(s.initial_sd**2)
+    if state.force_samples == 0 or stamp_ns < state.alignment_start_ns:
+        state.alignment_start_ns = stamp_ns
     state.force_sum_mps2[:] += force_mps2
     state.force_samples += 1
     state.moved = state.moved or norm(rate_radps) > MOVING_RADPS

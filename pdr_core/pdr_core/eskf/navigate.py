@@ -42,6 +42,8 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     dt_ns = block.imu.stamp_ns[i] - state.last_ns
     dt_s = dt_ns * 1e-9
     if dt_ns <= 0 or dt_ns > s.gap_ns or block.imu.gyro_sd_radps[i] < 0.0:
+        if dt_ns < 0:
+            turn_back(dt_ns, state)
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
     state.coasting = False
@@ -57,6 +59,13 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
+
+
+@compiled
+def turn_back(dt_ns: int, state: FilterState) -> None:
+    """Follow a clock that has jumped back: stamps of the time before would lie in the future."""
+    state.last_accepted_ns += dt_ns
+    state.rejecting_since_ns = -1
 
 
 @compiled
