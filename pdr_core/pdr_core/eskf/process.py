@@ -122,7 +122,8 @@ def cross_gap(P: Floats, cross: Floats, dt_s: float, process: ProcessNoise) -> N
     P[:, VELOCITY : VELOCITY + 3] = 0.0
     cross[VELOCITY : VELOCITY + 3] = 0.0
     spread_s2 = dt_s * max(dt_s, 1.0)
+    turn_rad2 = min(process.gap_rate_radps**2 * spread_s2, np.pi**2)  # more than unknown it cannot be
     for i in range(3):
         P[POSITION + i, POSITION + i] += process.gap_speed_mps**2 * spread_s2
         P[VELOCITY + i, VELOCITY + i] = process.gap_speed_mps**2
-        P[ATTITUDE + i, ATTITUDE + i] += process.gap_rate_radps**2 * spread_s2
+        P[ATTITUDE + i, ATTITUDE + i] += turn_rad2
