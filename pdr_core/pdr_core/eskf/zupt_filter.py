@@ -19,7 +19,9 @@ class ZuptFilter:
 
     def __init__(self, params: FilterParams, place: PlaceParams) -> None:
         self._settings = settings(params, place)
+        self._usual_sd = self._settings.initial_sd
         self.state: FilterState = fresh_state()
+        self.state.P[:] = np.diag(self._usual_sd**2)
 
     def run(self, block: StanceBlock) -> tuple[NavBlock, list[StepEvent]]:
         """Return an estimate for every sample, and the steps that are certain with them."""
@@ -52,7 +54,7 @@ class ZuptFilter:
         """Start anew at a pose: the foot is levelled there by the next samples, so it should stand still."""
         before = self.state
         yaw = yaw_rad(before.quat_xyzw) if pose.quat_xyzw is None else yaw_rad(pose.quat_xyzw)
-        sd = self._settings.initial_sd.copy()
+        sd = self._usual_sd.copy()
         sd[POSITION : POSITION + 3] = np.sqrt(np.diag(pose.covariance)[:3])
         sd[ATTITUDE + 2] = np.sqrt(pose.covariance[5, 5])
         self.state = fresh_state()
@@ -61,4 +63,5 @@ class ZuptFilter:
             sd[ACCEL_BIAS:] = np.sqrt(np.diag(before.P)[ACCEL_BIAS:])
             self.state.accel_bias_mps2[:] = before.accel_bias_mps2
             self.state.gyro_bias_radps[:] = before.gyro_bias_radps
+        self.state.P[:] = np.diag(sd**2)
         self._settings = self._settings._replace(initial_yaw_rad=yaw, initial_sd=sd)
