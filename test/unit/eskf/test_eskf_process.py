@@ -52,7 +52,9 @@ def test_the_covariance_is_carried_by_the_transition(seed):
 
 
 def test_the_biases_decay_and_gui_equation_18_as_printed_would_let_them_grow():
-    _, k = moved(random_state(np.random.default_rng(1)), np.zeros(3), np.zeros(3), np.zeros(3), 0.01, correlation_s=10.0)
+    _, k = moved(
+        random_state(np.random.default_rng(1)), np.zeros(3), np.zeros(3), np.zeros(3), 0.01, correlation_s=10.0
+    )
     ours = np.linalg.matrix_power(transition(k), 10_000)  # 100 s
     np.testing.assert_allclose(np.diag(ours)[9:], np.exp(-10.0), rtol=1e-9)
     printed = (1.0 + 0.01 / 10.0) ** 10_000  # I + beta dt with +beta

@@ -48,7 +48,9 @@ def test_the_estimated_error_and_the_cross_covariance_are_plain_products(seed):
     P, H, R, residual, K = problem(seed)
     C = np.random.default_rng(seed + 1).standard_normal((15, 6))
     expected = (np.eye(15) - K @ H) @ C
-    np.testing.assert_allclose(kalman.estimated_error(K, kalman.innovation(P, H, R, residual)), K @ residual, atol=1e-12)
+    np.testing.assert_allclose(
+        kalman.estimated_error(K, kalman.innovation(P, H, R, residual)), K @ residual, atol=1e-12
+    )
     kalman.correct_cross(C, K, H)
     np.testing.assert_allclose(C, expected, atol=1e-11)
 

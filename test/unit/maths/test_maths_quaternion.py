@@ -32,7 +32,9 @@ def test_the_exponential_map_is_that_of_scipy(seed, angle_rad):
 
 @given(st.floats(1e-12, 1e-6))
 def test_a_tiny_turn_keeps_all_its_digits(angle_rad):
-    np.testing.assert_allclose(quaternion.from_rotation_vector(np.array([angle_rad, 0, 0]))[0], angle_rad / 2, rtol=1e-12)
+    np.testing.assert_allclose(
+        quaternion.from_rotation_vector(np.array([angle_rad, 0, 0]))[0], angle_rad / 2, rtol=1e-12
+    )
 
 
 @given(SEEDS)

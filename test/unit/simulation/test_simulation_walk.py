@@ -47,7 +47,7 @@ def test_the_body_rate_turns_the_attitude():
 def test_the_specific_force_is_acceleration_and_gravity_in_the_foot_frame():
     at = move(PHASES, smooth_times())
     world = orientation(at).apply(specific_force_mps2(at, 9.8))
-    np.testing.assert_allclose(world, at.acceleration_mps2 + [0, 0, 9.8], atol=1e-12)
+    np.testing.assert_allclose(world, at.acceleration_mps2 + np.array([0.0, 0.0, 9.8]), atol=1e-12)
 
 
 def test_position_and_attitude_do_not_jump():

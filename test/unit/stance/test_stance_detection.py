@@ -77,7 +77,9 @@ def test_a_copy_goes_on_like_the_original():
     d = detection()
     d.run(part(WALK.imu, 0, 333))
     other = copy.deepcopy(d)
-    assert same(joined([d.run(part(WALK.imu, 333)), d.finish()]), joined([other.run(part(WALK.imu, 333)), other.finish()]))
+    assert same(
+        joined([d.run(part(WALK.imu, 333)), d.finish()]), joined([other.run(part(WALK.imu, 333)), other.finish()])
+    )
 
 
 def test_nothing_in_nothing_out():

@@ -68,7 +68,9 @@ def test_an_unfinished_run_waits_and_is_rejected_at_the_end():
     assert not verdicts(statistic, final=True).any()
 
 
-@given(st.lists(st.tuples(st.integers(1, 40), st.sampled_from([LOW, WOBBLE, SWING])), min_size=1, max_size=12), st.data())
+@given(
+    st.lists(st.tuples(st.integers(1, 40), st.sampled_from([LOW, WOBBLE, SWING])), min_size=1, max_size=12), st.data()
+)
 def test_verdicts_do_not_depend_on_how_the_stream_is_cut(pieces, data):
     statistic = spans(*((10 * n, value) for n, value in pieces))
     stamps, state, done, out = np.arange(len(statistic)) * 10 * MS, fresh_state(), 0, []

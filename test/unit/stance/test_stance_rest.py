@@ -37,7 +37,9 @@ def test_the_first_rest_shows_a_constant_bias_when_it_ends():
 
 
 def test_the_deviation_holds_for_a_noisy_gyro():
-    errors = [evidence(walked((3.0, 0.0), (0.5, 3.0), noise=0.0142, seed=s)[0]) for s in range(60)]  # .001 rad/s/sqrt(Hz)
+    errors = [
+        evidence(walked((3.0, 0.0), (0.5, 3.0), noise=0.0142, seed=s)[0]) for s in range(60)
+    ]  # .001 rad/s/sqrt(Hz)
     off = np.array([(rate[0] - BIAS) / sd[0] for _, rate, sd in errors])
     assert np.sqrt(np.mean(off**2)) < 1.2
 

@@ -5,6 +5,7 @@ from scipy.spatial.transform import Rotation
 from pdr_core.strapdown.mechanisation import advance
 
 G = 9.81
+UP = np.array([0.0, 0.0, G])
 
 
 def integrated(rate_radps, force_mps2, duration_s, steps):
@@ -18,7 +19,7 @@ def integrated(rate_radps, force_mps2, duration_s, steps):
 
 def test_a_constant_force_gives_half_a_t_squared_exactly():
     accel = np.array([0.3, -0.2, 0.1])
-    position, velocity, _ = integrated(lambda _: np.zeros(3), lambda _: accel + [0, 0, G], 2.0, 7)
+    position, velocity, _ = integrated(lambda _: np.zeros(3), lambda _: accel + UP, 2.0, 7)
     np.testing.assert_allclose(position, accel * 2.0, atol=1e-13)
     np.testing.assert_allclose(velocity, accel * 2.0, atol=1e-13)
 
@@ -50,7 +51,7 @@ def test_a_motion_that_returns_comes_back():
 
     def force(t):
         world = np.array([np.cos(2 * np.pi * t), np.cos(4 * np.pi * t), -np.cos(2 * np.pi * t)])
-        return attitude(t).inv().apply(world + [0, 0, G])
+        return attitude(t).inv().apply(world + UP)
 
     position, velocity, final = integrated(rate, force, 1.0, 20_000)
     assert np.linalg.norm(velocity) < 1e-6
@@ -69,7 +70,7 @@ def test_zhous_equation_1_counts_the_acceleration_twice(steps):
     dt, position, velocity, zhou, v = 1.0 / steps, np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
     quat, accel = np.array([0.0, 0.0, 0.0, 1.0]), np.array([2.0, 0.0, 0.0])
     for _ in range(steps):
-        advance(position, velocity, quat, np.zeros(3), accel + [0, 0, G], accel + [0, 0, G], dt, G)
+        advance(position, velocity, quat, np.zeros(3), accel + UP, accel + UP, dt, G)
         zhou, v = zhou_as_printed(zhou, v, accel, dt)
     assert position[0] == pytest.approx(1.0, abs=1e-12)  # a t^2 / 2
     assert zhou[0] - position[0] == pytest.approx(accel[0] * dt, abs=1e-12)  # one a dt^2 too much in every step

@@ -1,0 +1,191 @@
+"""A stream cut anywhere, copied anywhere and resumed gives the same bits as the whole; and nothing breaks the chain."""
+
+import copy
+import warnings
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pdr_core.eskf import ZuptFilter
+from pdr_core.intake import Ingestion
+from pdr_core.params import DriverParams, Params
+from pdr_core.pipeline import FootInertial
+from pdr_core.records import ImuBlock, joined, length, part
+from pdr_core.simulation import simulated_walk
+from pdr_core.stance import StanceDetection
+
+PARAMS = Params()
+
+
+def troubled_walk():
+    """Return a walk with a gap, a restart of the clock, duplicates, a late sample, NaN, saturation and gyro pauses."""
+    sim = simulated_walk(DriverParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
+    imu = ImuBlock(*(column.copy() for column in sim.imu))
+    imu.stamp_ns[450:] += 700_000_000
+    imu.stamp_ns[601] = imu.stamp_ns[600]
+    imu.stamp_ns[650] -= 60_000_000
+    imu.stamp_ns[800:] -= 30_000_000_000
+    imu.accel_mps2[333, 1] = np.nan
+    imu.gyro_radps[700:704] = 34.9
+    imu.gyro_sd_radps[900:930] = -1.0
+    return imu
+
+
+RAW = troubled_walk()
+TRUSTED = Ingestion(PARAMS.intake).run(RAW)
+
+
+def whole_stance():
+    stage = StanceDetection(PARAMS.stance, PARAMS.place)
+    return joined([stage.run(TRUSTED), stage.finish()])
+
+
+JUDGED = whole_stance()
+
+
+class Intake:
+    def __init__(self):
+        self.stage = Ingestion(PARAMS.intake)
+
+    def run(self, block):
+        return self.stage.run(block), []
+
+    def finish(self):
+        return part(TRUSTED, 0, 0), self.stage.notices
+
+
+class Stance:
+    def __init__(self):
+        self.stage = StanceDetection(PARAMS.stance, PARAMS.place)
+
+    def run(self, block):
+        return self.stage.run(block), []
+
+    def finish(self):
+        return self.stage.finish(), []
+
+
+class Filter:
+    def __init__(self):
+        self.stage = ZuptFilter(PARAMS.filter, PARAMS.place)
+
+    def run(self, block):
+        return self.stage.run(block)
+
+    def finish(self):
+        return self.stage.run(part(JUDGED, 0, 0))[0], [*self.stage.finish(), *self.stage.notices, self.stage.health]
+
+
+class Chain:
+    def __init__(self):
+        self.stage = FootInertial(PARAMS)
+
+    def run(self, block):
+        out = self.stage.run(block)
+        return out.nav, out.steps
+
+    def finish(self):
+        out = self.stage.finish()
+        return out.nav, [*out.steps, *self.stage.notices]
+
+
+STAGES = {"intake": (Intake, RAW), "stance": (Stance, TRUSTED), "filter": (Filter, JUDGED), "chain": (Chain, RAW)}
+
+
+def columns(block):
+    return [column for c in block for column in (columns(c) if isinstance(c, tuple) else [c])]
+
+
+def run_in_pieces(stage, block, cuts):
+    edges = [0, *sorted(cuts), length(block)]
+    outs = [stage.run(part(block, a, b)) for a, b in pairwise(edges)] + [stage.finish()]
+    return joined([block for block, _ in outs]), [repr(event) for _, events in outs for event in events]
+
+
+def assert_same(found, expected):
+    for a, b in zip(columns(found[0]), columns(expected[0]), strict=True):
+        np.testing.assert_array_equal(a, b)
+    assert sorted(found[1]) == sorted(expected[1])  # kinds of notices that first appear in one block have no order
+
+
+WHOLE = {name: run_in_pieces(stage(), block, []) for name, (stage, block) in STAGES.items()}
+CUTS = st.lists(st.integers(0, length(TRUSTED)), max_size=12)
+
+
+@pytest.mark.parametrize("name", STAGES)
+@given(cuts=CUTS)
+@settings(max_examples=30)
+def test_a_stream_gives_the_bits_of_the_whole(name, cuts):
+    stage, block = STAGES[name]
+    assert_same(run_in_pieces(stage(), block, [min(c, length(block)) for c in cuts]), WHOLE[name])
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_sample_by_sample_gives_the_bits_of_the_whole(name):
+    stage, block = STAGES[name]
+    assert_same(run_in_pieces(stage(), block, range(1, length(block))), WHOLE[name])
+
+
+@pytest.mark.parametrize("name", STAGES)
+@given(at=st.integers(0, length(TRUSTED)))
+@settings(max_examples=30)
+def test_a_copy_resumes_anywhere(name, at):
+    make, block = STAGES[name]
+    stage = make()
+    first = stage.run(part(block, 0, at))
+    resumed = copy.deepcopy(stage)
+    stage.run(part(block, at))  # what the original does must not reach the copy
+    rest, end = resumed.run(part(block, at)), resumed.finish()
+    events = [repr(event) for _, found in (first, rest, end) for event in found]
+    assert_same((joined([first[0], rest[0], end[0]]), events), WHOLE[name])
+
+
+NUMBERS = st.one_of(
+    st.floats(-50, 50),
+    st.sampled_from([np.nan, np.inf, -np.inf, 0.0, 9.81, 1e5, -999999.0, 1e6, 1e12, 1e300, -1e308, 5e-324]),
+)
+JUMPS = st.one_of(
+    st.integers(0, 20_000_000),
+    st.sampled_from([5_000_000] * 4 + [-1, -3_000_000, 10**8, 10**9, -(10**10), 10**13, 10**18, -(10**18), 2**62]),
+)
+SAMPLES = st.lists(
+    st.tuples(JUMPS, *[NUMBERS] * 6, st.sampled_from([0.0, 0.0, 0.0, -1.0, 0.01])), min_size=1, max_size=60
+)
+
+
+def mad_block(samples, start_ns):
+    stamps, stamp = [], start_ns
+    for jump, *_ in samples:
+        stamp = (stamp + jump + 2**63) % 2**64 - 2**63
+        stamps.append(stamp)
+    table = np.array([s[1:] for s in samples], float)
+    sd = table[:, 6].copy()
+    return ImuBlock(np.array(stamps, np.int64), table[:, :3].copy(), table[:, 3:6].copy(), sd, np.zeros(len(sd)))
+
+
+def assert_sound(nav, steps):
+    for column in nav:
+        assert np.all(np.isfinite(column))
+    np.testing.assert_allclose(np.linalg.norm(nav.quat_xyzw, axis=1), 1.0, atol=1e-9)
+    assert all(np.all(np.diagonal(c, axis1=1, axis2=2) >= 0) for c in (nav.pose_covariance, nav.twist_covariance))
+    assert all(np.isfinite([s.length_m, s.heading_sd_rad, s.yaw_rad, s.yaw_sd_rad]).all() for s in steps)
+
+
+@given(st.integers(0, length(RAW)), SAMPLES, st.integers(-(2**63), 2**63 - 1), st.booleans())
+@settings(max_examples=300)
+def test_nothing_that_comes_in_brings_the_chain_down(at, samples, start_ns, at_its_time):
+    chain = FootInertial(PARAMS)
+    begin = int(RAW.stamp_ns[min(at, length(RAW) - 1)]) if at_its_time else start_ns
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # a step across 30 years has no covariance of its own
+        for block in (part(RAW, 0, at), mad_block(samples, begin), part(RAW, at)):
+            out = chain.run(block)
+            assert_sound(out.nav, out.steps)
+        end = chain.finish()
+        assert_sound(end.nav, end.steps)
+    health = chain._filter.health
+    assert 0.0 <= health.quality <= 1.0
+    assert np.isfinite([health.position_sd_m, health.tilt_sd_rad, health.yaw_sd_rad, health.velocity_sd_mps]).all()
