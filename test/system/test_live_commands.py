@@ -1,0 +1,121 @@
+import json
+
+import pytest
+
+from support.processes import pdr
+from support.walks import COLUMNS, straight_walk, write_csv
+
+WALK = {"recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "strides", "distance_m"}
+CLOSURE = {"end_position_m", "closure_2d_m", "closure_3d_m"}
+KEYS = {*WALK, *CLOSURE, "seconds", "notices", "config", "truth", "version", "commit"}
+COMMANDS = ("demo", "test", "run", "replay", "params")
+TWO_FEET = """name: two
+time: {column: t, unit: ns}
+sensors:
+  left: &foot
+    gyro: {columns: [wx, wy, wz], unit: rad/s}
+    accel: {columns: [ax, ay, az], unit: m/s^2}
+  right: *foot
+"""
+
+
+@pytest.fixture(scope="module")
+def walk(tmp_path_factory):
+    return write_csv(tmp_path_factory.mktemp("one") / "walk.csv", straight_walk(2).imu)
+
+
+@pytest.fixture(scope="module")
+def two_feet(tmp_path_factory):
+    path = write_csv(tmp_path_factory.mktemp("two") / "walk.csv", straight_walk(2).imu)
+    path.with_suffix(".yaml").write_text(TWO_FEET)
+    return path
+
+
+def only_json(answer):
+    """The one JSON object that stdout holds, and nothing else."""
+    assert answer.returncode == 0, answer.stderr
+    return json.loads(answer.stdout, parse_constant=pytest.fail)
+
+
+def test_json_is_one_object_with_the_keys_that_are_promised(walk, tmp_path):
+    result = only_json(pdr("run", walk, "--json", "--out", tmp_path / "out"))
+    assert set(result) == KEYS
+    assert (result["format"], result["samples"], result["strides"], result["truth"]) == ("test", 900, 2, None)
+    assert result == json.loads((tmp_path / "out" / "result.json").read_text())
+
+
+def test_several_sensors_come_together_or_one_by_name(two_feet, tmp_path):
+    both = only_json(pdr("run", two_feet, "--json", "--out", tmp_path / "out"))
+    assert sorted(both) == ["format", "recording", "sensors"]
+    assert sorted(both["sensors"]) == ["left", "right"]
+    assert (tmp_path / "out" / "left" / "trajectory.tum").exists()
+    one = only_json(pdr("run", two_feet, "--json", "--sensor", "right"))
+    assert set(one) == KEYS
+    assert one["end_position_m"] == both["sensors"]["right"]["end_position_m"]
+
+
+def test_people_get_sentences(walk, tmp_path):
+    answer = pdr("run", walk, "--out", tmp_path / "out")
+    assert answer.stdout.startswith("Walked 2.")
+    assert "in 2 strides" in answer.stdout
+    assert str(tmp_path / "out") in answer.stdout
+    assert answer.stderr == ""
+
+
+def bad_file(folder, name, text):
+    path = folder / name
+    path.write_text(text)
+    return path
+
+
+def check_refused(answer, *words):
+    """One sentence on stderr, exit code 2, nothing on stdout."""
+    assert answer.stderr.startswith("pdr: ")
+    assert answer.stderr.count("\n") == 1
+    assert [word for word in words if word not in answer.stderr] == []
+    assert (answer.returncode, answer.stdout) == (2, "")
+
+
+@pytest.mark.parametrize("command", ["run", "replay"])
+def test_a_missing_file_is_refused(command, tmp_path):
+    check_refused(pdr(command, tmp_path / "no.csv", cwd=tmp_path), "no.csv", "does not exist")
+
+
+def test_an_unknown_sensor_is_refused(two_feet, tmp_path):
+    check_refused(pdr("run", two_feet, "--sensor", "middle"), "middle", "left, right")
+    out = tmp_path / "out"
+    check_refused(pdr("replay", two_feet, "--sensor", "middle", "--out", out), "left, right")
+    check_refused(pdr("replay", two_feet, "--out", tmp_path / "other"), "left, right")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("/**: {ros__parameters: {filter: {gate: 0.5}}}", ("filter.gate = 0.5", "within 1 ..")),
+        ("/**: {ros__parameters: {filter: {gates: 5}}}", ("filter.gates", "unknown")),
+        ("filter: {gate: 5.0}", ("ros__parameters",)),
+        ("a: [", ("cannot be read as YAML",)),
+    ],
+)
+def test_a_bad_parameter_file_is_refused(walk, tmp_path, text, words):
+    params = bad_file(tmp_path, "mine.yaml", text)
+    check_refused(pdr("run", walk, "--params", params), *words)
+
+
+@pytest.mark.parametrize("command", ["run", "replay"])
+def test_a_folder_that_cannot_be_written_is_refused(command, walk, tmp_path):
+    blocked = bad_file(tmp_path, "file", "not a folder") / "out"
+    check_refused(pdr(command, walk, "--out", blocked), "cannot write to", str(blocked))
+
+
+@pytest.mark.parametrize("text", ["", COLUMNS + "\n"])
+def test_an_empty_recording_is_refused(tmp_path, text):
+    path = bad_file(tmp_path, "walk.csv", text)
+    check_refused(pdr("run", path), "walk.csv")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_shows_an_example(command):
+    answer = pdr(command, "--help", COLUMNS="200")
+    assert answer.returncode == 0
+    assert f"Example: pdr {command}" in answer.stdout.replace("`", "")
