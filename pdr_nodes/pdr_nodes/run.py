@@ -20,20 +20,25 @@ def run(make_node: Callable[[], Node]) -> None:
     (rclpy 7.1). A node that has work of its own has a method `work`, which returns the time [s] until it wants to be
     called again, or None when it is done.
     """
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, shut_down)
     rclpy.init()
-    signal.signal(signal.SIGTERM, signal.getsignal(signal.SIGINT))
+    code = 0
     try:
-        node = make_node()
+        spin(make_node())
     except (ParameterError, RecordingError) as error:
         print(f"pdr: {error}", file=sys.stderr)
-        rclpy.try_shutdown()
-        sys.exit(2)
-    try:
-        spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+        code = 2
+    except (RuntimeError, ExternalShutdownException):
+        if rclpy.ok():
+            raise  # else the graph was shut down while something still wanted it
     finally:
         rclpy.try_shutdown()
+    sys.exit(code)
+
+
+def shut_down(*_: object) -> None:
+    """Leave it to rclpy: its own handler shuts the graph down. A KeyboardInterrupt would come out of any callback."""
 
 
 def spin(node: Node) -> None:
