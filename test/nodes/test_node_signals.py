@@ -52,4 +52,4 @@ def test_a_signal_ends_a_node_in_peace(when, tmp_path):
         pair = Pair(stack, tmp_path, when)
         ended = pair.end(getattr(pair, when))
     assert {key: code for key, (code, _) in ended.items() if code != 0} == {}
-    assert {key: said for key, (_, said) in ended.items() if "Traceback" in said or "rror" in said} == {}
+    assert {key: said for key, (_, said) in ended.items() if "Traceback" in said or "FATAL" in said} == {}
