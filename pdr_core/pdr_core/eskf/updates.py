@@ -18,7 +18,10 @@ from pdr_core.maths.kalman import (
     normalised_squared,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
+from pdr_core.maths.vector import norm
 from pdr_core.records import Floats
+
+SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a shock
 
 
 @compiled
@@ -46,19 +49,24 @@ def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
     """Tell the filter that the foot stands; return whether it believed it.
 
     An innovation beyond the gate is rejected: a false stance would stop a swinging foot. But where the rejections go
-    on for longer than the release time, it is the estimate that is wrong, and the update is taken with a noise that
-    brings it to the gate. So nothing locks the filter out.
+    on for longer than the release time, it is the estimate that is wrong. Then the update is taken with a noise that
+    brings it to the gate, and where even that does not help within the same time, the covariance is raised until it
+    agrees with the stance. So nothing locks the filter out.
     """
-    R = np.eye(3) * s.zero_velocity_sd_mps**2
-    y = innovation(state.P, zupt.H, R, zupt.residual(state.velocity_mps))
+    y = zero_velocity_innovation(s, state)
     d2 = normalised_squared(y)
     state.normalised_innovation = d2
     if d2 > s.gate:
-        if not released(stamp_ns, s.release_ns, state):
+        since_ns = rejecting_for_ns(stamp_ns, state)
+        if since_ns < s.release_ns:
             state.rejected += 1
             return False
-        y = inflated(y, d2 / s.gate)
         state.released += 1
+        if since_ns < 2 * s.release_ns:
+            y = inflated(y, d2 / s.gate)
+        else:
+            doubt(stamp_ns, state)
+            y = zero_velocity_innovation(s, state)
     else:
         state.rejecting_since_ns = -1
     apply(y, zupt.H, zupt.without_gyro_bias(gain(y)), state)
@@ -68,11 +76,30 @@ def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
 
 
 @compiled
-def released(stamp_ns: int, release_ns: int, state: FilterState) -> bool:
-    """Return whether the rejections, of which this is one, have gone on for longer than the release time."""
+def zero_velocity_innovation(s: Settings, state: FilterState) -> Innovation:
+    """Return what a stance says beyond the estimate."""
+    R = np.eye(3) * s.zero_velocity_sd_mps**2
+    return innovation(state.P, zupt.H, R, zupt.residual(state.velocity_mps))
+
+
+@compiled
+def rejecting_for_ns(stamp_ns: int, state: FilterState) -> int:
+    """Return for how long [ns] stances have been beyond the gate, this one included."""
     if state.rejecting_since_ns < 0:
         state.rejecting_since_ns = stamp_ns
-    return stamp_ns - state.rejecting_since_ns >= release_ns
+    return stamp_ns - state.rejecting_since_ns
+
+
+@compiled
+def doubt(stamp_ns: int, state: FilterState) -> None:
+    """Admit that the velocity is wrong by as much as it shows, and that a wrong tilt may have made it so."""
+    speed_mps = norm(state.velocity_mps)
+    swing_s = max(SHORTEST_SWING_S, (stamp_ns - state.last_accepted_ns) * 1e-9)
+    tilt_rad = min(np.pi, speed_mps / (state.gravity_mps2 * swing_s))
+    for i in range(3):
+        state.P[VELOCITY + i, VELOCITY + i] += speed_mps**2
+    for i in range(2):
+        state.P[ATTITUDE + i, ATTITUDE + i] += tilt_rad**2
 
 
 @compiled
