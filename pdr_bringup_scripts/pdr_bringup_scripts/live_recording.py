@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from pdr_bringup_scripts.problems import Problem
 from pdr_core.pipeline import FootOutput
 from pdr_core.records import Notice, joined
 from pdr_nodes.convert import nav_block, stance_block, step_event
@@ -23,7 +24,7 @@ def outputs(bag: Path) -> Iterator[FootOutput]:
         judged = joined([stance_block(stance) for stance, _ in piece])
         nav = joined([nav_block(odometry) for _, odometry in piece])
         if not np.array_equal(judged.imu.stamp_ns, nav.stamp_ns):
-            raise ValueError("verdicts and estimates do not have the same stamps")
+            raise Problem(f"{bag}: verdicts and estimates do not belong together: messages were lost on the way")
         yield FootOutput(judged, nav, steps)
         steps = []
 

@@ -12,6 +12,7 @@ import numpy as np
 
 NANOSECONDS = 1_000_000_000
 STANDARD_GRAVITY_MPS2 = 9.80665
+NO_STAMP = -(2**63)  # says "none"; stamps themselves may be negative, where a recording counts from a later moment
 
 
 def gravity_mps2(latitude_rad: float, height_m: float = 0.0) -> float:

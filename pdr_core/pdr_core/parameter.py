@@ -5,6 +5,7 @@ YAML files, ROS declarations and the tables of the documentation are made from i
 
 import dataclasses
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -57,7 +58,8 @@ def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
     """Return the value as the field's type; an integer where a float is meant is accepted."""
     wanted = type(field.default)
     if wanted is float and isinstance(value, int) and not isinstance(value, bool):
-        value = float(value)
+        with suppress(OverflowError):
+            value = float(value)
     known = meta(field)
     good = isinstance(value, wanted) and (wanted is bool or not isinstance(value, bool))
     if good and known.bounds:

@@ -27,10 +27,11 @@ def load_params(path: Path) -> Params:
 
 def ros_parameters(path: Path, content: Any) -> dict[str, Any]:
     """Return what stands below `ros__parameters` of the node `/**`."""
-    try:
-        return content["/**"]["ros__parameters"]
-    except (KeyError, TypeError) as error:
-        raise ParameterError(f"{path}: must begin with '/**:' and 'ros__parameters:'; see `pdr params`") from error
+    node = content.get("/**") if isinstance(content, dict) else None
+    parameters = node.get("ros__parameters") if isinstance(node, dict) else None
+    if not isinstance(parameters, dict):
+        raise ParameterError(f"{path}: must hold groups of parameters below '/**: ros__parameters:', see `pdr params`")
+    return parameters
 
 
 def default_file() -> str:

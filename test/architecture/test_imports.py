@@ -49,10 +49,10 @@ MAY_IMPORT = {
     "pdr_nodes.stance_detector_node": f"{NODE} pdr_core.stance",
     "pdr_nodes.zupt_ekf_node": f"{NODE} pdr_core.eskf",
     # commands see stages through the pipeline only, and of the nodes what reads their messages
-    "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich dask yaml {READS}",
+    "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich yaml {READS}",
     "pdr_bringup_scripts.listener": f"{BASE} {READS} rclpy ament_index_python pdr_core.recording.bag_writer",
     # reads back our own messages, which are no recording of samples; the door to those is `open_recording`
-    "pdr_bringup_scripts.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline",
+    "pdr_bringup_scripts.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline pdr_bringup_scripts.problems",
 }
 ROOTS = ("pdr_core", "pdr_nodes")  # a row for what has none of its own; not a layer whose modules see each other
 IMPURE = {"time", "datetime", "logging", "warnings", "sys", "subprocess", "threading"}

@@ -1,5 +1,6 @@
 """The filter's loop: align, propagate, update, one sample after the other. The only text of it, live and offline."""
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.align import align
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
@@ -41,7 +42,7 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     """Move estimate and covariance from the last sample to sample i."""
     dt_ns = block.imu.stamp_ns[i] - state.last_ns
     dt_s = dt_ns * 1e-9
-    if dt_ns <= 0 or dt_ns > s.gap_ns or block.imu.gyro_sd_radps[i] < 0.0:
+    if dt_ns <= 0 or dt_ns > s.gap_ns or gyro_off(block.imu.gyro_sd_radps[i], state):
         if dt_ns < 0:
             turn_back(dt_ns, state)
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
@@ -62,10 +63,16 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
 
 
 @compiled
+def gyro_off(gyro_sd_radps: float, state: FilterState) -> bool:
+    """Return whether the rate was not measured at one of the ends of the interval."""
+    return gyro_sd_radps < 0.0 or state.last_gyro_sd_radps < 0.0
+
+
+@compiled
 def turn_back(dt_ns: int, state: FilterState) -> None:
     """Follow a clock that has jumped back: stamps of the time before would lie in the future."""
     state.last_accepted_ns += dt_ns
-    state.rejecting_since_ns = -1
+    state.rejecting_since_ns = NO_STAMP
 
 
 @compiled

@@ -9,6 +9,8 @@ from pdr_core.maths.quaternion import matrix
 from pdr_core.maths.vector import product
 from pdr_core.records import Floats, NavBlock
 
+UNKNOWN_RATE_SD_RADPS = 10.0  # of a foot whose gyro is off
+
 
 def empty_nav(count: int) -> NavBlock:
     """Return room for `count` estimates."""
@@ -27,6 +29,7 @@ def empty_nav(count: int) -> NavBlock:
 def write(out: NavBlock, i: int, state: FilterState) -> None:
     """Write the estimate as sample i of the output."""
     P = state.P
+    rate_sd_radps = state.last_gyro_sd_radps if state.last_gyro_sd_radps >= 0.0 else UNKNOWN_RATE_SD_RADPS
     J = foot_velocity_jacobian(state.quat_xyzw, state.velocity_mps)
     velocity_covariance = product(product(J, P[VELOCITY : ATTITUDE + 3, VELOCITY : ATTITUDE + 3]), J.T)
     out.stamp_ns[i] = state.last_ns
@@ -38,7 +41,7 @@ def write(out: NavBlock, i: int, state: FilterState) -> None:
             J[j, 0] * state.velocity_mps[0] + J[j, 1] * state.velocity_mps[1] + J[j, 2] * state.velocity_mps[2]
         )
         out.rate_radps[i, j] = state.last_rate_radps[j] - state.gyro_bias_radps[j]
-        out.twist_covariance[i, 3 + j, 3 + j] = state.last_gyro_sd_radps**2
+        out.twist_covariance[i, 3 + j, 3 + j] = rate_sd_radps**2
         for k in range(3):
             out.pose_covariance[i, j, k] = P[POSITION + j, POSITION + k]
             out.pose_covariance[i, j, 3 + k] = P[POSITION + j, ATTITUDE + k]

@@ -5,6 +5,7 @@ A record also costs compiled code only a pointer, where a tuple of arrays would 
 
 import numpy as np
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import SIZE
 
 # fmt: off
@@ -18,7 +19,7 @@ ESTIMATE = [
     ("gravity_mps2", np.float64),
 ]
 LAST_SAMPLE = [
-    ("last_ns", np.int64),                    # -1: none yet
+    ("last_ns", np.int64),                    # NO_STAMP: none yet
     ("last_force_mps2", np.float64, 3),       # as measured
     ("last_rate_radps", np.float64, 3),
     ("last_gyro_sd_radps", np.float64),
@@ -33,9 +34,9 @@ ALIGNMENT = [                                 # the first moments, in which grav
 ]
 GATE = [
     ("last_accepted_ns", np.int64),           # of the zero-velocity updates
-    ("rejecting_since_ns", np.int64),         # -1: not rejecting
+    ("rejecting_since_ns", np.int64),         # NO_STAMP: not rejecting
 ]
-# The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; stamp -1: none. `cross`
+# The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
 # a displacement is exact, not the difference of two growing ones.
 STEPS = [
@@ -68,6 +69,6 @@ def fresh_state() -> FilterState:
     state.quat_xyzw[3] = 1.0
     state.aligning = True
     for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns", "rejecting_since_ns"):
-        state[stamp] = -1
-    state.end_ns[:] = -1
+        state[stamp] = NO_STAMP
+    state.end_ns[:] = NO_STAMP
     return state

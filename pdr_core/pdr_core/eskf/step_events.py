@@ -5,6 +5,7 @@ A stance goes on while the zero-velocity updates are accepted; interruptions sho
 
 import numpy as np
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
@@ -35,7 +36,7 @@ def stand(stamp_ns: int, state: FilterState) -> None:
 @compiled
 def stance_is_over(merge_ns: int, state: FilterState) -> bool:
     """Return whether the stance noted last has been over for longer than the merge time."""
-    return state.end_ns[1] >= 0 and abs(state.last_ns - state.end_ns[1]) > merge_ns
+    return state.end_ns[1] != NO_STAMP and abs(state.last_ns - state.end_ns[1]) > merge_ns
 
 
 def step_taken(state: FilterState) -> StepEvent | None:
@@ -44,7 +45,7 @@ def step_taken(state: FilterState) -> StepEvent | None:
     The first stance has no step before it: it is where the walk starts, and None is returned.
     """
     step = None
-    if state.end_ns[0] >= 0:
+    if state.end_ns[0] != NO_STAMP:
         step = StepEvent(
             index=int(state.step_number),
             start_ns=int(state.end_ns[0]),
@@ -65,4 +66,4 @@ def begin_next(state: FilterState) -> None:
     state.cross[:, :3] = state.cross[:, 3:]
     for name in ("end_ns", "end_position_m", "end_covariance", "end_yaw_rad", "end_yaw_sd_rad"):
         state[name][0] = state[name][1]
-    state.end_ns[1] = -1
+    state.end_ns[1] = NO_STAMP

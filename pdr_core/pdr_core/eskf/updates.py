@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf import zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.settings import Settings
@@ -21,6 +22,7 @@ from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
 from pdr_core.maths.vector import norm
 from pdr_core.records import Floats
 
+HOPELESS_MPS = 2.0  # a standing foot that seems so fast is no matter of noise
 SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a shock
 
 
@@ -50,8 +52,8 @@ def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
 
     An innovation beyond the gate is rejected: a false stance would stop a swinging foot. But where the rejections go
     on for longer than the release time, it is the estimate that is wrong. Then the update is taken with a noise that
-    brings it to the gate, and where even that does not help within the same time, the covariance is raised until it
-    agrees with the stance. So nothing locks the filter out.
+    brings it to the gate; and where even then, after the same time, a standing foot seems faster than a walker, the
+    covariance is raised until it agrees with the stance. So nothing locks the filter out.
     """
     y = zero_velocity_innovation(s, state)
     d2 = normalised_squared(y)
@@ -62,13 +64,13 @@ def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
             state.rejected += 1
             return False
         state.released += 1
-        if since_ns < 2 * s.release_ns:
+        if since_ns < 2 * s.release_ns or norm(state.velocity_mps) < HOPELESS_MPS:
             y = inflated(y, d2 / s.gate)
         else:
             doubt(stamp_ns, state)
             y = zero_velocity_innovation(s, state)
     else:
-        state.rejecting_since_ns = -1
+        state.rejecting_since_ns = NO_STAMP
     apply(y, zupt.H, zupt.without_gyro_bias(gain(y)), state)
     state.last_accepted_ns = stamp_ns
     state.accepted += 1
@@ -85,7 +87,7 @@ def zero_velocity_innovation(s: Settings, state: FilterState) -> Innovation:
 @compiled
 def rejecting_for_ns(stamp_ns: int, state: FilterState) -> int:
     """Return for how long [ns] stances have been beyond the gate, this one included."""
-    if state.rejecting_since_ns < 0:
+    if state.rejecting_since_ns == NO_STAMP:
         state.rejecting_since_ns = stamp_ns
     return stamp_ns - state.rejecting_since_ns
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf import health
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, POSITION
 from pdr_core.eskf.navigate import navigate
@@ -34,7 +35,7 @@ class ZuptFilter:
 
     def finish(self) -> list[StepEvent]:
         """Return the step that ends in the stance which the recording ends in, if it does."""
-        return self._step_taken() if self.state.end_ns[1] >= 0 else []
+        return self._step_taken() if self.state.end_ns[1] != NO_STAMP else []
 
     def _step_taken(self) -> list[StepEvent]:
         step = step_taken(self.state)

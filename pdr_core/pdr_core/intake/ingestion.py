@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, STANDARD_GRAVITY_MPS2
+from pdr_core.conventions import NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
 from pdr_core.intake.plausibility import Plausibility
-from pdr_core.intake.stream_guard import FAULTS, NONE_YET, Fault, GuardLimits, admitted, fresh_state
+from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
 from pdr_core.maths import quaternion
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import rotated
@@ -82,7 +82,7 @@ class Ingestion:
 
 def intervals_s(stamps_ns: Stamps, before_ns: int, longest_s: float) -> Floats:
     """Return the time [s] from each sample's predecessor, (n,), bounded by a gap's length, which the first one gets."""
-    before = [before_ns] if before_ns != NONE_YET else stamps_ns[:1]
+    before = [before_ns] if before_ns != NO_STAMP else stamps_ns[:1]
     interval_s = np.diff(stamps_ns, prepend=np.asarray(before, np.int64)) / NANOSECONDS
     return np.where(interval_s > 0.0, np.minimum(interval_s, longest_s), longest_s)
 

@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.maths.compiled import compiled
 from pdr_core.records import ImuBlock, Level, Stamps
 
-NONE_YET = -(2**63)  # stamps may be negative: a recording may count from a later moment
 LATEST_NS = 2**62  # in the year 2116; so no difference of two stamps overflows
 ABSURD = 1e6  # no sensor shows so much, in whatever unit, and the square of much more would drown all else
 
@@ -44,12 +44,12 @@ class GuardLimits(NamedTuple):
 class GuardState(NamedTuple):
     """The guard's memory."""
 
-    last_ns: Stamps  # (1,) stamp of the last sample that passed, or NONE_YET
+    last_ns: Stamps  # (1,) stamp of the last sample that passed, or NO_STAMP
 
 
 def fresh_state() -> GuardState:
     """Return the memory of a guard that has seen nothing."""
-    return GuardState(np.full(1, NONE_YET))
+    return GuardState(np.full(1, NO_STAMP))
 
 
 @compiled
@@ -62,7 +62,7 @@ def admitted(block: ImuBlock, limits: GuardLimits, state: GuardState) -> NDArray
         if not (plausible and -LATEST_NS < block.stamp_ns[i] < LATEST_NS):
             faults[i] = Fault.NOT_FINITE
             continue
-        if state.last_ns[0] != NONE_YET:
+        if state.last_ns[0] != NO_STAMP:
             if step_ns == 0:
                 faults[i] = Fault.DUPLICATE
                 continue
