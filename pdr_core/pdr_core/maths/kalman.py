@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import product
+from pdr_core.maths.vector import inverse_positive, product
 from pdr_core.records import Floats
 
 
@@ -23,7 +23,7 @@ def innovation(P: Floats, H: Floats, R: Floats, residual: Floats) -> Innovation:
     """Return the innovation of a measurement with Jacobian H (m, n) and noise R (m, m) on the covariance P (n, n)."""
     HP = product(H, P)
     S = product(HP, H.T) + R
-    return Innovation(residual, HP, S, np.linalg.inv(S))  # type: ignore[arg-type]
+    return Innovation(residual, HP, S, inverse_positive(S))
 
 
 @compiled

@@ -63,3 +63,25 @@ def product(A: Floats, B: Floats) -> Floats:
 def norm(v: Vector) -> float:
     """Return the Euclidean length."""
     return np.sqrt(v[0] ** 2 + v[1] ** 2 + v[2] ** 2)
+
+
+@compiled
+def inverse_positive(S: Floats) -> Floats:
+    """Return the inverse of a small symmetric positive definite matrix (n, n): Cholesky's L, its inverse, L'^-1 L^-1.
+
+    LAPACK would do it too, but takes as long for the call as this for the work, and 0.4 s to load.
+    """
+    n = S.shape[0]
+    L = np.zeros((n, n))
+    M = np.zeros((n, n))  # the inverse of L
+    for i in range(n):
+        for j in range(i + 1):
+            rest = S[i, j]
+            for k in range(j):
+                rest -= L[i, k] * L[j, k]
+            L[i, j] = np.sqrt(rest) if i == j else rest / L[j, j]
+        M[i, i] = 1.0 / L[i, i]
+        for j in range(i):
+            for k in range(j, i):
+                M[i, j] -= L[i, k] * M[k, j] / L[i, i]
+    return product(M.T, M)

@@ -82,3 +82,10 @@ def test_small_vectors_and_matrices(seed):
     np.testing.assert_allclose(vector.mean(u, v), (u + v) / 2)
     np.testing.assert_allclose(vector.difference(u, v), u - v)
     assert vector.norm(u) == pytest.approx(np.linalg.norm(u))
+
+
+@given(SEEDS, st.integers(1, 6))
+def test_the_inverse_of_a_covariance_is_its_inverse(seed, size):
+    A = np.random.default_rng(seed).standard_normal((size, size))
+    S = A @ A.T + 0.1 * np.eye(size)
+    np.testing.assert_allclose(vector.inverse_positive(S) @ S, np.eye(size), atol=1e-9)
