@@ -18,13 +18,14 @@ def generate_launch_description():
         DeclareLaunchArgument("imu", default_value="imu/data_raw", description="topic of your driver"),
         DeclareLaunchArgument("params", default_value=defaults, description="parameter file, see `pdr params`"),
         DeclareLaunchArgument("namespace", default_value="", description="one per foot"),
+        DeclareLaunchArgument("foot_frame", default_value="foot", description="frame of the foot, one per foot"),
     ]
     nodes = [
         Node(
             package="pdr_nodes",
             executable=name,
             namespace=LaunchConfiguration("namespace"),
-            parameters=[LaunchConfiguration("params")],
+            parameters=[LaunchConfiguration("params"), {"node.foot_frame": LaunchConfiguration("foot_frame")}],
             remappings=[("imu/data_raw", LaunchConfiguration("imu"))],
         )
         for name in NODES

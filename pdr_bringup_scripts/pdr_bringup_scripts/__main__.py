@@ -22,7 +22,7 @@ def main() -> None:
     """Run the command line; an error a user can mend is one sentence and exit code 2."""
     from pdr_bringup_scripts.problems import told
 
-    told(app)
+    told(lambda: app(prog_name="pdr"))
 
 
 if __name__ == "__main__":

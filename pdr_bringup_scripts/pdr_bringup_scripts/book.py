@@ -4,8 +4,11 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TextIO
 
+import numpy as np
+
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION, commit
+from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.report import write_report
 from pdr_core.evaluation.result import Result
 from pdr_core.evaluation.score import Scorer
@@ -37,7 +40,8 @@ class Book:
         self._trace = Trace()
         self._out = out
         self._trajectory: TextIO | None = None
-        self._first_ns, self._last_ns = -1, -1
+        self.duration_s = 0.0  # of the estimate; where the clock jumps back, nobody knows how much time passed
+        self._last_ns: int | None = None
         self.steps: list[StepEvent] = []
         if out:
             make_folder(out)
@@ -50,17 +54,13 @@ class Book:
         self.steps += output.steps
         if not length(nav):
             return
-        self._first_ns = int(nav.stamp_ns[0]) if self._first_ns < 0 else self._first_ns
+        steps_ns = np.diff(nav.stamp_ns, prepend=nav.stamp_ns[0] if self._last_ns is None else self._last_ns)
+        self.duration_s += float(np.clip(steps_ns, 0, None).sum()) / NANOSECONDS
         self._last_ns = int(nav.stamp_ns[-1])
         self._scorer.add(nav)
         self._trace.add(output.judged, nav)
         if self._trajectory:
             append_tum(self._trajectory, Trajectory(nav.stamp_ns, nav.position_m, nav.quat_xyzw))
-
-    @property
-    def duration_s(self) -> float:
-        """Time [s] from the first to the last estimate."""
-        return (self._last_ns - self._first_ns) * 1e-9
 
     @property
     def _start_position_m(self) -> Floats:
@@ -69,7 +69,7 @@ class Book:
 
     def close(self, pipeline: str, params: Params, samples: int, seconds: float, notices: list[Notice]) -> Result:
         """Return the result and write the files; Problem if there was no usable sample."""
-        if self._first_ns < 0:
+        if self._last_ns is None:
             raise Problem(f"{self._session.path} holds no usable sample: {'; '.join(n.text for n in notices)}")
         result = Result(
             recording=str(self._session.path),

@@ -1,7 +1,7 @@
 """Reads what the nodes have said back from a recording."""
 
 from collections.abc import Iterator
-from itertools import islice
+from itertools import islice, zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +19,10 @@ PIECE = 5000
 def outputs(bag: Path) -> Iterator[FootOutput]:
     """Yield the estimates in pieces, and all steps with the first piece."""
     steps = [step_event(m) for m in messages(bag, "step")]
-    pairs = zip(messages(bag, "stance"), messages(bag, "odom"), strict=False)
+    pairs = zip_longest(messages(bag, "stance"), messages(bag, "odom"))
     while piece := list(islice(pairs, PIECE)):
+        if None in piece[-1]:
+            raise Problem(f"{bag}: verdicts and estimates are not as many: messages were lost on the way")
         judged = joined([stance_block(stance) for stance, _ in piece])
         nav = joined([nav_block(odometry) for _, odometry in piece])
         if not np.array_equal(judged.imu.stamp_ns, nav.stamp_ns):

@@ -18,6 +18,9 @@ def told(main: Callable[[], object]) -> None:
     except (Problem, ParameterError, RecordingError) as problem:
         print(f"pdr: {problem}", file=sys.stderr)
         sys.exit(2)
+    except OSError as error:
+        print(f"pdr: {error.filename or 'a file'}: {error.strerror or error}", file=sys.stderr)
+        sys.exit(2)
     except KeyboardInterrupt:
         print("pdr: stopped", file=sys.stderr)
         sys.exit(130)

@@ -12,6 +12,7 @@ import numpy as np
 
 NANOSECONDS = 1_000_000_000
 STANDARD_GRAVITY_MPS2 = 9.80665
+GAP_NS = 100_000_000  # a longer time between two samples is a gap: nobody knows what the foot did in it
 NO_STAMP = -(2**63)  # says "none"; stamps themselves may be negative, where a recording counts from a later moment
 
 

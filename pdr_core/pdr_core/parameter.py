@@ -4,11 +4,13 @@ YAML files, ROS declarations and the tables of the documentation are made from i
 """
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, TypeVar
 
 T = TypeVar("T")
+YAML_TEXT = re.compile(r"[-+]?[0-9]+[eE][-+]?[0-9]+")  # a number that YAML 1.1 takes for a text: it has no dot
 Number = float | int
 
 
@@ -55,9 +57,9 @@ def meta(field: dataclasses.Field) -> Meta:
 
 
 def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
-    """Return the value as the field's type; an integer where a float is meant is accepted."""
+    """Return the value as the field's type; an integer where a float is meant is accepted, and 1e-5 without a dot."""
     wanted = type(field.default)
-    if wanted is float and isinstance(value, int) and not isinstance(value, bool):
+    if wanted is float and (type(value) is int or (isinstance(value, str) and YAML_TEXT.fullmatch(value))):
         with suppress(OverflowError):
             value = float(value)
     known = meta(field)

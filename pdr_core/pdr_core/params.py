@@ -43,7 +43,6 @@ class IntakeParams:
     saturated_accel_sd_mps2: float = parameter(
         20.0, "what a saturated accelerometer may be off by", unit="m/s^2", bounds=(0.0, 500.0)
     )
-    gap_s: float = parameter(0.1, "a longer time between two samples is a gap", unit="s", bounds=(0.002, 10.0))
     restart_s: float = parameter(
         1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
     )
@@ -81,14 +80,14 @@ class StanceParams:
     )
     dip_max_s: float = parameter(
         0.15,
-        "what begins within swing_min_s after a toe-off must last longer",
+        "what begins within swing_min_s of the last stance must last longer",
         unit="s",
         bounds=(0.0, 1.0),
         source="Gui figure 3",
     )
     swing_min_s: float = parameter(
         0.55,
-        "so soon after a toe-off, a short dip is mid-swing",
+        "so soon after the last stance, a short dip is mid-swing",
         unit="s",
         bounds=(0.0, 2.0),
         source="Gui section 3",
@@ -151,7 +150,6 @@ class FilterParams:
         bounds=(0.0, 5.0),
         source="measured on real walks",
     )
-    gap_s: float = parameter(0.1, "a longer time between two samples is not integrated", unit="s", bounds=(0.002, 10.0))
     gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
     gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))
     accel_bias_walk: float = parameter(

@@ -109,6 +109,7 @@ class FilterHealth:
     accepted: int  # zero-velocity updates
     rejected: int
     gaps: int
+    resets: int
     since_zero_velocity_s: float
     normalised_innovation: float
     position_sd_m: float  # horizontal, larger axis

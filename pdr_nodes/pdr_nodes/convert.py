@@ -194,6 +194,7 @@ def health_message(
     message.zero_velocity_updates = health.accepted
     message.zero_velocity_rejections = health.rejected
     message.gaps = health.gaps
+    message.resets = health.resets
     message.since_zero_velocity = health.since_zero_velocity_s
     message.normalised_innovation = health.normalised_innovation
     message.position_stddev = health.position_sd_m

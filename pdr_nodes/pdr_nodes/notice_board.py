@@ -16,7 +16,7 @@ class NoticeBoard:
 
     def __init__(self, node: Node, what: str, notices: Callable[[], list[Notice]]) -> None:
         self._node = node
-        self._name = f"{node.get_name()}: {what}"
+        self._name = f"{node.get_fully_qualified_name().lstrip('/')}: {what}"
         self._notices = notices
         self._told: set[str] = set()
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", STATUS)

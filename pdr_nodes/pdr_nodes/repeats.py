@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from pdr_core.conventions import NO_STAMP
+
 
 class Repeats:
     """A stage that is started again gets its latest input once more and passes it on once more, up to now and beyond.
@@ -10,8 +12,8 @@ class Repeats:
     """
 
     def __init__(self) -> None:
-        self._latest_ns = -1
-        self._known_until_ns = -1
+        self._latest_ns = NO_STAMP
+        self._known_until_ns = NO_STAMP
 
     def matched(self, info: Any) -> None:
         """Note that a publisher has come or gone."""
@@ -22,7 +24,7 @@ class Repeats:
         """Tell whether the sample of this stamp came before."""
         known = stamp_ns <= self._known_until_ns
         if stamp_ns >= self._known_until_ns:
-            self._known_until_ns = -1
+            self._known_until_ns = NO_STAMP
         if not known:
             self._latest_ns = stamp_ns
         return known

@@ -29,7 +29,7 @@ def notices(state: FilterState) -> list[Notice]:
     return found
 
 
-def judged(state: FilterState) -> FilterHealth:
+def judged(state: FilterState, resets: int) -> FilterHealth:
     """Return the filter's state in numbers."""
     P = state.P
     sd = np.sqrt(np.diag(P))
@@ -42,6 +42,7 @@ def judged(state: FilterState) -> FilterHealth:
         accepted=int(state.accepted),
         rejected=int(state.rejected),
         gaps=int(state.gaps),
+        resets=resets,
         since_zero_velocity_s=since_s,
         normalised_innovation=float(state.normalised_innovation),
         position_sd_m=float(np.sqrt(np.linalg.eigvalsh(P[POSITION : POSITION + 2, POSITION : POSITION + 2])[-1])),

@@ -1,6 +1,6 @@
 """The filter's loop: align, propagate, update, one sample after the other. The only text of it, live and offline."""
 
-from pdr_core.conventions import NO_STAMP
+from pdr_core.conventions import GAP_NS, NO_STAMP
 from pdr_core.eskf.align import align
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
@@ -42,7 +42,7 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     """Move estimate and covariance from the last sample to sample i."""
     dt_ns = block.imu.stamp_ns[i] - state.last_ns
     dt_s = dt_ns * 1e-9
-    if dt_ns <= 0 or dt_ns > s.gap_ns or gyro_off(block.imu.gyro_sd_radps[i], state):
+    if dt_ns <= 0 or dt_ns > GAP_NS or gyro_off(block.imu.gyro_sd_radps[i], state):
         if dt_ns < 0:
             turn_back(dt_ns, state)
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
@@ -80,19 +80,19 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     """Cross a gap: hold the position, forget the velocity, trust everything less."""
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
+    state.gaps += not state.coasting
     state.coasting = True
-    state.gaps += 1
 
 
 @compiled
 def navigate(block: StanceBlock, start: int, s: Settings, state: FilterState, out: NavBlock) -> tuple[int, bool]:
-    """Take samples from `start` on, until one shows that a stance is over or there are no more.
+    """Take samples from `start` on, until the stamp of one shows that a stance is over, or there are no more.
 
     Returns the index of the next sample to take, and whether a stance is over.
     """
     for i in range(start, block.imu.stamp_ns.shape[0]):
+        if stance_is_over(block.imu.stamp_ns[i], s.merge_ns, state):
+            return i, True
         sample_step(block, i, s, state)
         write(out, i, state)
-        if stance_is_over(s.merge_ns, state):
-            return i + 1, True
     return block.imu.stamp_ns.shape[0], False

@@ -115,8 +115,8 @@ def noise(accel_sd_mps2: float, gyro_sd_radps: float, dt_s: float, process: Proc
 def cross_gap(P: Floats, cross: Floats, dt_s: float, process: ProcessNoise) -> None:
     """Let P (15, 15) and the covariances `cross` (15, m) cross a gap in which a person may have walked and turned.
 
-    The velocity is forgotten: a foot may end a gap at any phase of its swing. The position wanders like that of a
-    walker who takes a new direction every second.
+    The velocity is forgotten: a foot may end a gap at any phase of its swing. The position wanders, at random below a
+    second and steadily beyond.
     """
     P[VELOCITY : VELOCITY + 3] = 0.0
     P[:, VELOCITY : VELOCITY + 3] = 0.0

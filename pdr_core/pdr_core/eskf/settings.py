@@ -22,7 +22,6 @@ class Settings(NamedTuple):
     zero_velocity_sd_mps: float
     gate: float
     release_ns: int
-    gap_ns: int
     merge_ns: int
 
 
@@ -44,6 +43,5 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         zero_velocity_sd_mps=p.zero_velocity_sd_mps,
         gate=p.gate,
         release_ns=round(p.gate_release_s * NANOSECONDS),
-        gap_ns=round(p.gap_s * NANOSECONDS),
         merge_ns=round(p.step_merge_s * NANOSECONDS),
     )

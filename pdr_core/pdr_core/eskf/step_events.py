@@ -34,9 +34,9 @@ def stand(stamp_ns: int, state: FilterState) -> None:
 
 
 @compiled
-def stance_is_over(merge_ns: int, state: FilterState) -> bool:
-    """Return whether the stance noted last has been over for longer than the merge time."""
-    return state.end_ns[1] != NO_STAMP and abs(state.last_ns - state.end_ns[1]) > merge_ns
+def stance_is_over(stamp_ns: int, merge_ns: int, state: FilterState) -> bool:
+    """Return whether the stance noted last has been over for longer than the merge time at a stamp."""
+    return state.end_ns[1] != NO_STAMP and abs(stamp_ns - state.end_ns[1]) > merge_ns
 
 
 def step_taken(state: FilterState) -> StepEvent | None:

@@ -21,6 +21,7 @@ class ZuptFilter:
     def __init__(self, params: FilterParams, place: PlaceParams) -> None:
         self._settings = settings(params, place)
         self._usual_sd = self._settings.initial_sd
+        self._resets = 0
         self.state: FilterState = fresh_state()
         self.state.P[:] = np.diag(self._usual_sd**2)
 
@@ -44,7 +45,7 @@ class ZuptFilter:
     @property
     def health(self) -> FilterHealth:
         """How far the filter can be trusted now."""
-        return health.judged(self.state)
+        return health.judged(self.state, self._resets)
 
     @property
     def notices(self) -> list[Notice]:
@@ -53,7 +54,7 @@ class ZuptFilter:
 
     def reset(self, pose: PoseEstimate, keep_biases: bool) -> None:
         """Start anew at a pose: the foot is levelled there by the next samples, so it should stand still."""
-        before = self.state
+        before, self._resets = self.state, self._resets + 1
         yaw = yaw_rad(before.quat_xyzw) if pose.quat_xyzw is None else yaw_rad(pose.quat_xyzw)
         sd = self._usual_sd.copy()
         sd[POSITION : POSITION + 3] = np.sqrt(np.diag(pose.covariance)[:3])

@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pdr_core.conventions import seconds_between
+from pdr_core.conventions import NO_STAMP, seconds_between
 from pdr_core.evaluation import alignment, dropouts, metrics
 from pdr_core.evaluation.resample import AtStamps
-from pdr_core.records import Floats, NavBlock, Stamps, StepEvent, Truth, TruthKind
+from pdr_core.records import Flags, Floats, NavBlock, Stamps, StepEvent, Truth, TruthKind
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,12 @@ class Scorer:
     """Takes every estimate once and keeps the positions at the truth's stamps, the first and the last position."""
 
     def __init__(self, truth: Truth | None) -> None:
-        """Raise ValueError unless the truth's stamps ascend."""
+        """Rows of the truth that are not later than all before them are left out."""
+        truth = in_order(truth) if truth and len(truth.stamp_ns) else truth
         self._truth = truth
         self._resampled = AtStamps(truth.stamp_ns if truth else np.empty(0, dtype=np.int64))
         self._start_ns: int | None = None
+        self._latest_ns = NO_STAMP
         self.start_position_m: Floats = np.full(3, np.nan)
         self.end_position_m: Floats = np.full(3, np.nan)
 
@@ -54,7 +56,9 @@ class Scorer:
             self._start_ns = int(nav.stamp_ns[0])
             self.start_position_m = nav.position_m[0].copy()
         self.end_position_m = nav.position_m[-1].copy()
-        self._resampled.add(nav.stamp_ns, nav.position_m)
+        later = ascending(nav.stamp_ns, self._latest_ns)
+        self._latest_ns = max(self._latest_ns, int(nav.stamp_ns.max()))
+        self._resampled.add(nav.stamp_ns[later], nav.position_m[later])
 
     @property
     def closure_2d_m(self) -> float:
@@ -100,6 +104,18 @@ class Scorer:
         good = dropouts.measured(truth.stamp_ns, truth.position_m)[rows]
         truth_m = np.where(good[:, None], truth.position_m[rows], np.nan)
         return truth.stamp_ns[rows], self._resampled.position_m[rows], truth_m
+
+
+def ascending(stamp_ns: Stamps, before_ns: int) -> Flags:
+    """Return which stamps, (n,), are later than `before_ns` and all before them."""
+    latest_ns = np.maximum.accumulate(np.concatenate([[before_ns], stamp_ns]))
+    return stamp_ns > latest_ns[:-1]
+
+
+def in_order(truth: Truth) -> Truth:
+    """Return the truth without the rows that come late."""
+    rows = ascending(truth.stamp_ns, NO_STAMP)
+    return replace(truth, stamp_ns=truth.stamp_ns[rows], position_m=truth.position_m[rows])
 
 
 def _paired(truth: Truth, steps: Sequence[StepEvent], start_position_m: Floats) -> tuple[Stamps, Floats, Floats]:

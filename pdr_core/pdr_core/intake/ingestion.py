@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
+from pdr_core.conventions import GAP_NS, NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
 from pdr_core.intake.plausibility import Plausibility
 from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
 from pdr_core.maths import quaternion
@@ -21,7 +21,7 @@ class Ingestion:
 
     def __init__(self, params: IntakeParams) -> None:
         self._params = params
-        self._limits = GuardLimits(round(params.gap_s * NANOSECONDS), round(params.restart_s * NANOSECONDS))
+        self._limits = GuardLimits(round(params.restart_s * NANOSECONDS))
         self._guard = fresh_state()
         self._plausibility = Plausibility()
         self._tally = Tally()
@@ -50,7 +50,7 @@ class Ingestion:
             self._tally.add_flagged(kind, level, text, faults == fault, raw.stamp_ns)
         passes = (faults == Fault.NONE) | (faults == Fault.GAP) | (faults == Fault.RESTART)
         good = ImuBlock._make(column[passes] for column in raw)
-        return good, intervals_s(good.stamp_ns, before_ns, self._params.gap_s)
+        return good, intervals_s(good.stamp_ns, before_ns, GAP_NS / NANOSECONDS)
 
     def _in_si_units(self, block: ImuBlock) -> ImuBlock:
         return block._replace(

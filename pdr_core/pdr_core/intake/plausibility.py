@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, STANDARD_GRAVITY_MPS2
+from pdr_core.conventions import NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
 from pdr_core.notices import Tally
 from pdr_core.records import ImuBlock, Level
 
@@ -14,14 +14,14 @@ class Plausibility:
     """Looks at the first second of the accelerometer and at every sample of the gyro."""
 
     def __init__(self) -> None:
-        self._start_ns = -1
+        self._start_ns = NO_STAMP
         self._norms_mps2: list[float] = []
         self._judged = False
 
     def watch(self, block: ImuBlock, tally: Tally) -> None:
         """Look at the next samples and tell the tally what is not plausible."""
         too_fast = np.abs(block.gyro_radps).max(axis=1, initial=0.0) > IMPOSSIBLE_RATE_RADPS
-        text = "angular rates of over 60 rad/s: probably deg/s; set gyro_unit to deg/s"
+        text = "rates of over 60 rad/s: probably deg/s; set intake.gyro_unit, or the unit in the column map, to deg/s"
         tally.add_flagged("gyro_unit", Level.ERROR, text, too_fast, block.stamp_ns)
         if not self._judged:
             self._look_at_accel(block, tally)
@@ -29,7 +29,7 @@ class Plausibility:
     def _look_at_accel(self, block: ImuBlock, tally: Tally) -> None:
         if not len(block.stamp_ns):
             return
-        if self._start_ns < 0:
+        if self._start_ns == NO_STAMP:
             self._start_ns = int(block.stamp_ns[0])
         first_look = block.stamp_ns - self._start_ns < FIRST_LOOK_S * NANOSECONDS
         self._norms_mps2.extend(np.linalg.norm(block.accel_mps2[first_look], axis=1).tolist())
@@ -46,7 +46,7 @@ def verdict_on_norm(norm_mps2: float) -> str:
         return ""
     measured = f"the acceleration is typically {norm_mps2:.3g} m/s^2 instead of 9.81"
     if abs(norm_mps2 - 1.0) < 0.2:
-        return measured + ": probably in g; set accel_unit to g"
+        return measured + ": probably in g; set intake.accel_unit, or the unit in the column map, to g"
     if norm_mps2 < 0.5:
         return measured + ": gravity seems to be removed; use the raw acceleration of the driver"
     return measured + ": check the unit and the calibration"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pdr_core.conventions import NO_STAMP
+from pdr_core.conventions import GAP_NS, NO_STAMP
 from pdr_core.maths.compiled import compiled
 from pdr_core.records import ImuBlock, Level, Stamps
 
@@ -37,7 +37,6 @@ FAULTS = {
 class GuardLimits(NamedTuple):
     """The numbers the guard works with."""
 
-    gap_ns: int
     restart_ns: int
 
 
@@ -71,7 +70,7 @@ def admitted(block: ImuBlock, limits: GuardLimits, state: GuardState) -> NDArray
                 continue
             if step_ns < 0:
                 faults[i] = Fault.RESTART
-            elif step_ns > limits.gap_ns:
+            elif step_ns > GAP_NS:
                 faults[i] = Fault.GAP
         state.last_ns[0] = block.stamp_ns[i]
     return faults

@@ -18,7 +18,7 @@ COLUMNS_SHOWN = 12
 HOW_TO_MAP = (
     "say which is which in a file '{stem}.yaml' beside it, for example `time: {{column: t, unit: s}}` and `sensors: "
     "{{imu: {{gyro: {{columns: [wx, wy, wz], unit: rad/s}}, accel: {{columns: [ax, ay, az], unit: m/s^2}}}}}}` "
-    "(docs/recordings.md has the rest)."
+    "(pdr_core/docs/recordings.md has the rest)."
 )
 
 

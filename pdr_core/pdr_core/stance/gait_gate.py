@@ -3,14 +3,15 @@
 A gait cycle is toe-off, swing, heel strike, stance; between toe-off and heel strike there is no stance. But in
 mid-swing the foot turns back and is nearly weightless for an instant, and the statistic dips below the threshold (Gui
 figure 3). The dip is short and comes soon after the toe-off. So a stance must last for a while (the time threshold),
-and for longer where it begins within the shortest possible swing after a toe-off (the gait classification). A toe-off
-is a rise well above the threshold: a foot that merely wobbles has not left the ground.
+and for longer where it begins within the shortest possible swing after the last one (the gait classification), if a
+toe-off came between: a rise well above the threshold. A foot that merely wobbles has not left the ground.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from pdr_core.conventions import GAP_NS, NO_STAMP
 from pdr_core.maths.compiled import compiled
 from pdr_core.records import Flags, Floats, Stamps
 
@@ -29,6 +30,7 @@ class GateState(NamedTuple):
     """The gate's memory, up to the last decided sample."""
 
     run: Stamps  # (1,) of samples below the threshold: NO_RUN, ACCEPTED or REJECTED
+    last_ns: Stamps  # (1,) stamp of the last sample, or NO_STAMP
     last_stance_ns: Stamps  # (1,) stamp of the last sample in stance
     swinging: Flags  # (1,) a toe-off came after it
 
@@ -38,7 +40,7 @@ NO_RUN, ACCEPTED, REJECTED = 0, 1, 2
 
 def fresh_state() -> GateState:
     """Return the memory of a gate that has seen nothing."""
-    return GateState(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1, np.bool_))
+    return GateState(np.zeros(1, np.int64), np.full(1, NO_STAMP), np.zeros(1, np.int64), np.zeros(1, np.bool_))
 
 
 @compiled
@@ -49,9 +51,11 @@ def decide(
     n = stamp_ns.shape[0]
     for i in range(n):
         verdict[i] = False
-        if statistic[i] > limits.threshold:
+        if statistic[i] > limits.threshold or after_gap(stamp_ns[i], state.last_ns[0]):
             state.run[0] = NO_RUN
+        if statistic[i] > limits.threshold:
             state.swinging[0] = state.swinging[0] or statistic[i] > limits.toe_off
+            state.last_ns[0] = stamp_ns[i]
             continue
         if state.run[0] == NO_RUN:
             needed_ns = limits.stance_min_ns
@@ -65,14 +69,21 @@ def decide(
             verdict[i] = True
             state.last_stance_ns[0] = stamp_ns[i]
             state.swinging[0] = False
+        state.last_ns[0] = stamp_ns[i]
     return n
+
+
+@compiled
+def after_gap(stamp_ns: int, before_ns: int) -> bool:
+    """Return whether samples are missing between two stamps: then no stance goes on from one to the other."""
+    return before_ns != NO_STAMP and stamp_ns - before_ns > GAP_NS
 
 
 @compiled
 def run_lasts(stamp_ns: Stamps, statistic: Floats, start: int, threshold: float, needed_ns: int) -> tuple[bool, bool]:
     """Return whether the run below the threshold from `start` lasts for `needed_ns`, and whether its end is known."""
     for i in range(start, stamp_ns.shape[0]):
-        if statistic[i] > threshold:
+        if statistic[i] > threshold or (i > start and after_gap(stamp_ns[i], stamp_ns[i - 1])):
             return False, True
         if stamp_ns[i] - stamp_ns[start] >= needed_ns:
             return True, True

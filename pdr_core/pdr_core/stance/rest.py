@@ -16,12 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pdr_core.conventions import GAP_NS
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import norm
 from pdr_core.records import Flags, Floats, ImuBlock, Stamps
 
 CAPACITY = 8192  # samples of a rest that are remembered
-GAP_NS = 100_000_000  # in a longer time without samples the foot may have moved
 
 
 class RestLimits(NamedTuple):

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS
+from pdr_core.conventions import NANOSECONDS, NO_STAMP
 from pdr_core.records import ImuBlock, length, part
 from pdr_nodes.devices.source import Source
 
@@ -17,7 +17,7 @@ class Player:
         self._settling_ns = round(settling_s * NANOSECONDS)
         self._keep_every = 1
         self._gyro_on = True
-        self._settled_ns = 0
+        self._settled_ns = NO_STAMP
         self.taken = 0
         self.interval_s = 0.0
         self.next: ImuBlock | None = next(self._samples, None)

@@ -43,6 +43,10 @@ def test_what_is_not_allowed_is_named(mapping, text):
     assert "\n" not in str(error.value)
 
 
+def test_a_number_that_yaml_takes_for_a_text_is_a_number():
+    assert params_from_mapping({"filter": {"gyro_bias_walk": "1e-5"}}).filter.gyro_bias_walk == 1e-5
+
+
 def test_an_integer_stands_for_a_float():
     gate = params_from_mapping({"filter": {"gate": 20}}).filter.gate
     assert (gate, type(gate)) == (20.0, float)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdr_core.evaluation import metrics
-from pdr_core.evaluation.score import Scorer
+from pdr_core.evaluation.score import Scorer, in_order
 from pdr_core.records import Truth, TruthKind, part
 
 NO_STAMPS = np.empty(0, dtype=np.int64)
@@ -183,6 +183,7 @@ def test_the_view_of_strides_has_the_time_of_every_footfall(make):
     assert view.time_s[:2].tolist() == pytest.approx([0.49, 1.69])
 
 
-def test_unordered_truth_is_refused():
-    with pytest.raises(ValueError, match="ascend"):
-        Scorer(position([2, 1], SQUARE_M[:2]))
+def test_rows_of_the_truth_that_come_late_are_left_out():
+    late = in_order(position([1, 3, 2, 3, 4], SQUARE_M[[0, 1, 2, 3, 0]]))
+    assert late.stamp_ns.tolist() == [1, 3, 4]
+    assert np.array_equal(late.position_m, SQUARE_M[[0, 1, 0]])

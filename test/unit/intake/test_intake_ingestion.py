@@ -179,7 +179,10 @@ def walking(scale_accel=1.0, scale_gyro=1.0, minus_g=0.0):
 @pytest.mark.parametrize(
     ("imu", "text"),
     [
-        (walking(1 / 9.80665), "typically 1 m/s^2 instead of 9.81: probably in g; set accel_unit to g"),
+        (
+            walking(1 / 9.80665),
+            "typically 1 m/s^2 instead of 9.81: probably in g; set intake.accel_unit, or the unit in",
+        ),
         (walking(minus_g=9.81), "typically 0 m/s^2 instead of 9.81: gravity seems to be removed; use the raw"),
         (walking(9.80665), "typically 96.2 m/s^2 instead of 9.81: check the unit and the calibration"),
         (walking(0.3), "typically 2.94 m/s^2 instead of 9.81: check the unit and the calibration"),
@@ -195,7 +198,10 @@ def test_rates_in_degrees_are_told():
     _, notices = taken(walking(scale_gyro=6500.0))
     notice = notices["gyro_unit"]
     assert (notice.level, notice.count) == (Level.ERROR, 150)
-    assert notice.text == "angular rates of over 60 rad/s: probably deg/s; set gyro_unit to deg/s"
+    assert (
+        notice.text
+        == "rates of over 60 rad/s: probably deg/s; set intake.gyro_unit, or the unit in the column map, to deg/s"
+    )
 
 
 def test_a_copy_goes_on_like_the_original():
