@@ -43,7 +43,7 @@ def install(layout: Layout, ros: SourcedRos | None, environment: Mapping[str, st
     """Install the pinned packages and make our own importable from their sources."""
     listed = layout.venv / "requirements.txt"
     listed.write_text(requirements(layout, ros, environment), encoding="utf-8")
-    options = ["--no-input", "--no-deps", "--no-compile", "-r", str(listed)]
+    options = ["--no-input", "--no-deps", "-r", str(listed)]
     command = [str(layout.python), "-m", "pip", "install", *options]
     failure = "pip could not install the Python packages; is the network there?"
     progress.run(command, {**environment, "PIP_USER": "0"}, failure)
