@@ -31,8 +31,3 @@ def stamp_ns_from_seconds(time_s: np.ndarray) -> np.ndarray:
 def seconds_between(stamps_ns: np.ndarray, start_ns: int) -> np.ndarray:
     """Return stamps [ns], shape (n,), as seconds since `start_ns`, without losing the nanoseconds."""
     return (stamps_ns - np.int64(start_ns)) / NANOSECONDS
-
-
-def wrap_rad(angle_rad: np.ndarray) -> np.ndarray:
-    """Wrap angles [rad] into [-pi, pi)."""
-    return (angle_rad + np.pi) % (2.0 * np.pi) - np.pi
