@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "pdr_core.notices": "pdr_core.records",
     "pdr_core.params_file": "yaml pdr_core.parameter pdr_core.params",
     "pdr_core.maths": f"{BASE} scipy",
-    "pdr_core.maths.compiled": "numba",  # the only one: here the cache is keyed on all sources
+    "pdr_core.maths.compiled": "numba",  # the only one: here the cache is keyed on the sources
     **{f"pdr_core.{stage}": STAGE for stage in STAGES},
     # the filter predicts by mechanisation: one compiled loop per sample, so the two cannot meet in the pipeline
     "pdr_core.eskf": f"{STAGE} pdr_core.strapdown",

@@ -4,10 +4,10 @@ import numpy as np
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf import health
+from pdr_core.eskf.configure import settings
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, POSITION
 from pdr_core.eskf.navigate import navigate
 from pdr_core.eskf.output import empty_nav
-from pdr_core.eskf.settings import settings
 from pdr_core.eskf.state import FilterState, fresh_state
 from pdr_core.eskf.step_events import step_taken
 from pdr_core.maths.quaternion import yaw_rad

@@ -6,8 +6,7 @@ from pdr_core.conventions import GAP_NS, NANOSECONDS, NO_STAMP, STANDARD_GRAVITY
 from pdr_core.intake.plausibility import Plausibility
 from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
 from pdr_core.maths import quaternion
-from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import rotated
+from pdr_core.maths.vector import each_rotated
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
 from pdr_core.records import Flags, Floats, ImuBlock, Level, Notice, Stamps
@@ -90,12 +89,3 @@ def intervals_s(stamps_ns: Stamps, before_ns: int, longest_s: float) -> Floats:
 def saturated(values: Floats, full_scale: float) -> Flags:
     """Return which samples (n, 3) have an axis within 0.5 % of the sensor's range, (n,)."""
     return np.abs(values).max(axis=1, initial=0.0) >= 0.995 * full_scale
-
-
-@compiled
-def each_rotated(R: Floats, vectors: Floats) -> Floats:
-    """Return R v for every row v of (n, 3); row by row, so that one sample gives the same bits as many."""
-    out = np.empty_like(vectors)
-    for i in range(vectors.shape[0]):
-        out[i] = rotated(R, vectors[i])
-    return out

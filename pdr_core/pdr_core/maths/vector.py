@@ -29,6 +29,15 @@ def rotated(R: Floats, v: Vector) -> Triple:
 
 
 @compiled
+def each_rotated(R: Floats, vectors: Floats) -> Floats:
+    """Return R v for every row v of (n, 3); row by row, so that one sample gives the same bits as many."""
+    out = np.empty_like(vectors)
+    for i in range(vectors.shape[0]):
+        out[i] = rotated(R, vectors[i])
+    return out
+
+
+@compiled
 def scaled(factor: float, v: Vector) -> Triple:
     """Return factor v."""
     return factor * v[0], factor * v[1], factor * v[2]

@@ -5,8 +5,8 @@ import pytest
 from filter_cases import judged, moved, random_state, transition
 from test_eskf_filter import JUDGED, STANCE_ENDS, WALK, fresh
 
+from pdr_core.eskf.configure import settings
 from pdr_core.eskf.process import carry, noise, propagate_covariance
-from pdr_core.eskf.settings import settings
 from pdr_core.eskf.step_events import begin_next, stand
 from pdr_core.eskf.updates import zero_velocity
 from pdr_core.params import FilterParams, PlaceParams

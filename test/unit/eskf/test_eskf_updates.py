@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdr_core.eskf import zaru, zupt
+from pdr_core.eskf.configure import settings
 from pdr_core.eskf.error_state import GYRO_BIAS, VELOCITY
-from pdr_core.eskf.settings import settings
 from pdr_core.eskf.updates import zero_rate, zero_velocity
 from pdr_core.params import FilterParams, PlaceParams
 

@@ -1,0 +1,30 @@
+"""From parameters to the settings of the compiled filter; apart, so that a new parameter compiles nothing anew."""
+
+import numpy as np
+
+from pdr_core.conventions import NANOSECONDS, gravity_mps2
+from pdr_core.eskf.process import ProcessNoise
+from pdr_core.eskf.settings import Settings
+from pdr_core.params import FilterParams, PlaceParams
+
+
+def settings(params: FilterParams, place: PlaceParams) -> Settings:
+    """Derive the settings from the parameters."""
+    p = params
+    position_and_velocity = [p.initial_position_sd_m] * 3 + [p.initial_velocity_sd_mps] * 3
+    attitude = [p.initial_tilt_sd_rad] * 2 + [p.initial_yaw_sd_rad]
+    biases = [p.initial_accel_bias_sd_mps2] * 3 + [p.initial_gyro_bias_sd_radps] * 3
+    return Settings(
+        process=ProcessNoise(
+            p.accel_bias_walk, p.gyro_bias_walk, p.bias_correlation_s, p.gap_speed_mps, p.gap_rate_radps
+        ),
+        gravity_mps2=gravity_mps2(np.radians(place.latitude_deg), place.height_m),
+        gravity_from_rest=p.gravity_source == "rest",
+        alignment_ns=round(p.alignment_s * NANOSECONDS),
+        initial_yaw_rad=p.initial_yaw_rad,
+        initial_sd=np.array(position_and_velocity + attitude + biases),
+        zero_velocity_sd_mps=p.zero_velocity_sd_mps,
+        gate=p.gate,
+        release_ns=round(p.gate_release_s * NANOSECONDS),
+        merge_ns=round(p.step_merge_s * NANOSECONDS),
+    )
