@@ -38,8 +38,8 @@ def handover_message(handover: records.Handover, world_frame: str, foot_frame: s
     message.header.frame_id = world_frame
     pose, position = handover.pose, message.pose.pose.position
     position.x, position.y, position.z = pose.position_m.tolist()
-    if pose.quat_xyzw is not None:
-        message.pose.pose.orientation = quaternion_message(pose.quat_xyzw)
+    unknown = np.zeros(4)  # a message says so by a quaternion of zeros; w = 1 is its default
+    message.pose.pose.orientation = quaternion_message(unknown if pose.quat_xyzw is None else pose.quat_xyzw)
     message.pose.covariance = pose.covariance.ravel()
     message.biases_known = handover.biases is not None
     if handover.biases:

@@ -26,7 +26,7 @@ def assert_equal(a, b):
 
 @pytest.mark.parametrize("due_ns", [STAMP + 5, NO_STAMP])
 def test_a_step_keeps_when_its_answer_is_due(due_ns):
-    step = StepEvent(3, STAMP - 10**9, STAMP, RNG.random(3), RNG.random(3), RNG.random((3, 3)), 0.3, 0.1, due_ns)
+    step = StepEvent(3, STAMP - 10**9, STAMP, RNG.random(3), RNG.random(3), np.eye(3), 0.3, 0.1, due_ns)
     assert_equal(step_event(step_message(step, "odom", "foot")), step)
 
 
