@@ -3,8 +3,8 @@
 import numpy as np
 
 from pdr_core.conventions import GAP_NS, NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
-from pdr_core.intake.plausibility import Plausibility
-from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
+from pdr_core.intake.plausibility import Plausibility, plausible
+from pdr_core.intake.stamp_policy import StampPolicy
 from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.notices import Tally
@@ -16,12 +16,12 @@ GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
 
 
 class Ingestion:
-    """Guards the stream, converts units, judges saturation and turns the sensor's axes into the foot's."""
+    """Leaves out what is no number, sees to the stamps, converts units, judges saturation and turns the axes."""
 
     def __init__(self, params: IntakeParams) -> None:
         self._params = params
-        self._limits = GuardLimits(round(params.restart_s * NANOSECONDS))
-        self._guard = fresh_state()
+        self._stamps = StampPolicy(params)
+        self._last_ns = NO_STAMP
         self._plausibility = Plausibility()
         self._tally = Tally()
         self._R_foot_from_sensor = quaternion.matrix(
@@ -29,27 +29,34 @@ class Ingestion:
         )
 
     def run(self, raw: ImuBlock) -> ImuBlock:
-        """Return the samples of `raw` that can be used, in SI units and foot axes, with their noise."""
-        good, interval_s = self._guarded(raw)
-        si = self._in_si_units(good)
-        self._plausibility.watch(si, self._tally)
-        noisy = self._with_noise(si, interval_s)
-        return self._in_foot_axes(noisy)
+        """Return the samples of `raw`, and one that waited, that can be used, in SI units, foot axes, with noise."""
+        return self._conditioned(self._stamps.run(self._numbers(raw)))
+
+    def finish(self) -> ImuBlock:
+        """Return the sample that still waits for a later one, if one does."""
+        return self._conditioned(self._stamps.finish())
 
     @property
     def notices(self) -> list[Notice]:
         """What was wrong with the samples so far."""
-        return self._tally.notices
+        return self._tally.notices + self._stamps.notices
 
-    def _guarded(self, raw: ImuBlock) -> tuple[ImuBlock, Floats]:
-        before_ns = self._guard.last_ns[0]
+    def _numbers(self, raw: ImuBlock) -> ImuBlock:
         raw = ImuBlock._make(np.ascontiguousarray(column) for column in raw)
-        faults = admitted(raw, self._limits, self._guard)
-        for fault, (kind, level, text) in FAULTS.items():
-            self._tally.add_flagged(kind, level, text, faults == fault, raw.stamp_ns)
-        passes = (faults == Fault.NONE) | (faults == Fault.GAP) | (faults == Fault.RESTART)
-        good = ImuBlock._make(column[passes] for column in raw)
-        return good, intervals_s(good.stamp_ns, before_ns, GAP_NS / NANOSECONDS)
+        good = plausible(raw.gyro_radps, raw.accel_mps2)
+        if good.all():
+            return raw
+        self._note("not_finite", "samples hold NaN, infinity or absurd numbers: left out", ~good, raw.stamp_ns)
+        return ImuBlock._make(column[good] for column in raw)
+
+    def _conditioned(self, good: ImuBlock) -> ImuBlock:
+        interval_s = intervals_s(good.stamp_ns, self._last_ns, GAP_NS / NANOSECONDS)
+        if len(good.stamp_ns):
+            self._last_ns = int(good.stamp_ns[-1])
+        si = self._in_si_units(good)
+        self._plausibility.watch(si, self._tally)
+        noisy = self._with_noise(si, interval_s)
+        return self._in_foot_axes(noisy)
 
     def _in_si_units(self, block: ImuBlock) -> ImuBlock:
         return block._replace(
