@@ -4,6 +4,7 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import within
 from pdr_core.notices import Tally
 from pdr_core.records import Flags, Floats, ImuBlock, Level
 
@@ -48,7 +49,7 @@ def plausible(gyro: Floats, accel: Floats) -> Flags:
     """Return which samples, (n, 3) each in whatever unit, hold nothing but numbers that a sensor may show, (n,)."""
     good = np.empty(gyro.shape[0], np.bool_)
     for i in range(gyro.shape[0]):
-        good[i] = np.all(np.abs(gyro[i]) < ABSURD) and np.all(np.abs(accel[i]) < ABSURD)
+        good[i] = within(gyro[i], ABSURD) and within(accel[i], ABSURD)
     return good
 
 

@@ -8,7 +8,7 @@ from pdr_core.intake.stamp_rules import StampLimits, judged
 from pdr_core.intake.stamp_state import NOBODY, fresh_state
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
-from pdr_core.records import ImuBlock, Notice, joined, length
+from pdr_core.records import ImuBlock, Notice, Stamps, joined, length
 
 NOTHING = ImuBlock(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
 
@@ -43,9 +43,14 @@ class StampPolicy:
     def _judge(self, block: ImuBlock, final: bool) -> ImuBlock:
         block = joined([self._waiting, block]) if length(self._waiting) else block
         fault, order, stamp_ns = judged(block, self._limits, self._state, final)
-        for kind in np.unique(fault[fault > 0]):
-            self._tally.add_flagged(*NOTICES[kind], fault == kind, block.stamp_ns)
-        w, passed = int(self._state.waiting), int(self._state.passed)
-        self._waiting = ImuBlock._make(c[w : w + 1].copy() for c in block) if w != NOBODY else NOTHING
-        good = ImuBlock._make(column[order[:passed]] for column in block)
-        return good._replace(stamp_ns=stamp_ns[:passed])
+        self._tell(fault, block.stamp_ns)
+        w, passed, straight = (self._state[name] for name in ("waiting", "passed", "straight"))
+        self._waiting = NOTHING if w == NOBODY else ImuBlock._make(column[w : w + 1].copy() for column in block)
+        if not (straight and passed == length(block)):
+            block = ImuBlock._make(column[order[:passed]] for column in block)
+        return block._replace(stamp_ns=stamp_ns[:passed])
+
+    def _tell(self, fault: Stamps, stamp_ns: Stamps) -> None:
+        if fault.any():
+            for kind in np.unique(fault[fault > 0]):
+                self._tally.add_flagged(*NOTICES[kind], fault == kind, stamp_ns)

@@ -39,8 +39,7 @@ def judged(block: ImuBlock, limits: StampLimits, state: StampState, final: bool)
     """Judge the samples of a block; the first one is the one that waits, if one does."""
     n = block.stamp_ns.shape[0]
     out = Verdicts(np.zeros(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64))
-    state.passed = 0
-    start = 0
+    state.passed, state.straight, start = 0, True, 0
     if state.waiting != NOBODY:
         state.waiting, start = 0, 1
     for i in range(start, n):
@@ -155,9 +154,11 @@ def let_pass(block: ImuBlock, i: int, limits: StampLimits, state: StampState, ou
                 out.fault[i] = Fault.BURST
         learn(step_ns, state)
     state.last_ns = stamp_ns
-    state.last_gyro[:] = block.gyro_radps[i]
-    state.last_accel[:] = block.accel_mps2[i]
+    for axis in range(3):
+        state.last_gyro[axis] = block.gyro_radps[i, axis]
+        state.last_accel[axis] = block.accel_mps2[i, axis]
     if passes:
+        state.straight = state.straight and state.passed == i
         out.order[state.passed] = i
         out.stamp_ns[state.passed] = state.out_ns
         state.passed += 1

@@ -23,6 +23,7 @@ LAYOUT = np.dtype([
     ("after_hole", np.bool_),          # they came after a hole
     ("waiting", np.int64),             # index of the sample that waits; NOBODY: none does
     ("passed", np.int64),              # samples of the present block that pass
+    ("straight", np.bool_),            # none of them was left out or overtaken so far
 ], align=True)
 # fmt: on
 StampState = np.record
