@@ -46,6 +46,12 @@ class IntakeParams:
     restart_s: float = parameter(
         1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
     )
+    constant_rate_hz: float = parameter(
+        0.0,
+        "rate at which samples are stamped anew, for drivers that stamp on arrival; 0: the stamps as they come",
+        unit="Hz",
+        bounds=(0.0, 4000.0),
+    )
 
 
 @dataclass(frozen=True)

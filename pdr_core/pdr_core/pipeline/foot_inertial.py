@@ -15,7 +15,6 @@ from pdr_core.records import (
     StanceBlock,
     StepEvent,
     joined,
-    part,
 )
 from pdr_core.stance import StanceDetection
 
@@ -48,14 +47,13 @@ class FootInertial:
 
     def run(self, raw: ImuBlock) -> FootOutput:
         """Take the next samples, any number of them."""
-        trusted = self._intake.run(raw)
-        judged = self._stance.run(trusted)
+        judged = self._stance.run(self._intake.run(raw))
         nav, steps = self._estimated(judged)
         return FootOutput(judged, nav, steps)
 
     def finish(self) -> FootOutput:
         """Give out what still waits for later samples: there will be none."""
-        judged = self._stance.finish()
+        judged = joined([self._stance.run(self._intake.finish()), self._stance.finish()])
         nav, steps = self._estimated(judged)
         return FootOutput(judged, nav, steps + self._filter.finish())
 
@@ -66,7 +64,7 @@ class FootInertial:
         while self._filter.asks and unanswered:
             for step in unanswered:
                 self._filter.answer(self._heading(step))
-            nav, unanswered = self._filter.run(part(judged, 0, 0))
+            nav, unanswered = self._filter.resume()
             pieces, steps = [*pieces, nav], steps + unanswered
         return joined(pieces) if len(pieces) > 1 else nav, steps
 
