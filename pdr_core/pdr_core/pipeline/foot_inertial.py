@@ -15,7 +15,6 @@ from pdr_core.records import (
     StanceBlock,
     StepEvent,
     joined,
-    part,
 )
 from pdr_core.stance import StanceDetection
 
@@ -66,7 +65,7 @@ class FootInertial:
         while self._filter.asks and unanswered:
             for step in unanswered:
                 self._filter.answer(self._heading(step))
-            nav, unanswered = self._filter.run(part(judged, 0, 0))
+            nav, unanswered = self._filter.resume()
             pieces, steps = [*pieces, nav], steps + unanswered
         return joined(pieces) if len(pieces) > 1 else nav, steps
 
