@@ -59,7 +59,7 @@ class Walk:
     def answered(self, behind):
         """Answer each step when the odometry has stood still for it, or as soon as it is known."""
         self.bench.until(self.answers.get_subscription_count, "somebody who asks")
-        for count in range(1, STRIDES + 1):
+        for count in range(1, STRIDES):  # the last step is certain only when no more samples come
             self.heard(self.steps, count)
             if behind:
                 self.bench.until(lambda: self.node._filter.waits, "the filter to wait")
