@@ -196,6 +196,7 @@ class DriverParams:
     acknowledge_topic: str = parameter(
         "odom", "as fast as possible: samples count as taken once their estimate appears on this topic"
     )
+    subscribers: int = parameter(1, "the first sample waits for so many subscribers", bounds=(1, 100))
     walk: str = parameter("rectangle", "the simulated walk", choices=("rectangle", "straight", "still"))
     walk_length_m: float = parameter(36.0, "length of the simulated walk", unit="m", bounds=(0.0, 1e5))
     sensor_model: str = parameter(
@@ -213,9 +214,19 @@ class NodeParams:
     world_frame: str = parameter("odom", "frame of the estimate", source="REP-105")
     foot_frame: str = parameter("foot", "frame of the foot")
     sensor_frame: str = parameter("imu_link", "frame of the sensor", source="REP-145")
+    autostart: bool = parameter(True, "become active without being told; false: wait for the lifecycle services")
     publish_tf: bool = parameter(False, "broadcast world_frame -> foot_frame; one node at a time may")
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
+    )
+    odom_rate_hz: float = parameter(
+        200.0,
+        "estimates are published at most so often, by their stamps; steps always",
+        unit="Hz",
+        bounds=(1.0, 4000.0),
+    )
+    answer_timeout_s: float = parameter(
+        0.5, "a step's heading observation is waited for so long; 0: for ever", unit="s", bounds=(0.0, 60.0)
     )
     idle_s: float = parameter(
         1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)

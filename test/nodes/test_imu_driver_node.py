@@ -78,7 +78,7 @@ def test_a_recording_is_replayed_bit_by_bit(tmp_path):
 
 
 def test_it_keeps_the_pace_that_it_is_given(driver):
-    driver.node._rate_factor = 1e-9
+    driver.node._pace._factor = 1e-9
     driver.work_until(1)
     for _ in range(5):
         assert driver.node.work() == LOOK_S
