@@ -28,11 +28,11 @@ class ImuDriverNode(Node):
 
     def __init__(self) -> None:
         super().__init__("imu_driver", automatically_declare_parameters_from_overrides=True)
-        params = read_params(self, ("driver", "node"))
+        params = read_params(self, ("driver", "simulation", "place", "node"))
         self._rate_factor = params.driver.rate_factor
         self._settling_s = params.driver.settling_s
         self._frame_id = params.node.sensor_frame
-        source = open_device(params.driver, self.get_clock().now().nanoseconds)
+        source = open_device(params, self.get_clock().now().nanoseconds)
         self._player = Player(source, self._settling_s)
         self._publisher = self.create_publisher(Imu, "imu/data_raw", OWN)
         self._truth = TruthPublisher(self, source.truth)
