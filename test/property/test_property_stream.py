@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
-from pdr_core.params import SimulationParams, Params
+from pdr_core.params import Params, SimulationParams
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from pdr_core.intake import Ingestion
-from pdr_core.params import SimulationParams, Params
+from pdr_core.params import Params, SimulationParams
 from pdr_core.records import ImuBlock, StanceBlock, joined, length
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.stance import StanceDetection

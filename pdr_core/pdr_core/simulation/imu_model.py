@@ -1,6 +1,6 @@
 """What an IMU on the foot measures: rate and specific force, mounting, bias, noise and range (Gui eq. 31-32)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -33,16 +33,28 @@ class SensorModel:
         return gyro, np.array(self.accel_bias_mps2) + self.accel_bias_sd_mps2 * drawn[1]
 
 
-MPU_9250_RANGE = {"gyro_range_radps": 34.9, "accel_range_mps2": 156.9}  # 2000 deg/s, 16 g: Gui Table 2
-GUI_BIAS: tuple[Axes, Axes] = ((0.02618, 0.03491, 0.02094), (0.1, 0.2, 0.15))
+MPU_9250 = SensorModel(gyro_range_radps=34.9, accel_range_mps2=156.9)  # 2000 deg/s, 16 g: Gui Table 2
+GUI_TABLE_1 = replace(
+    MPU_9250,
+    gyro_bias_radps=(0.02618, 0.03491, 0.02094),
+    accel_bias_mps2=(0.1, 0.2, 0.15),
+    gyro_noise_density=0.1,
+    accel_noise_density=0.1,
+)
 SENSOR_MODELS = {
     "ideal": SensorModel(),
     # 0.1 deg/s and 10 mg after calibration, 0.01 deg/s/sqrt(Hz), 300 ug/sqrt(Hz): data sheet of the MPU-9250
-    "consumer": SensorModel((0.0017, -0.0012, 0.0017), (0.05, -0.05, 0.1), 1.75e-4, 2.9e-3, **MPU_9250_RANGE),
+    "consumer": replace(
+        MPU_9250,
+        gyro_bias_radps=(0.0017, -0.0012, 0.0017),
+        accel_bias_mps2=(0.05, -0.05, 0.1),
+        gyro_noise_density=1.75e-4,
+        accel_noise_density=2.9e-3,
+    ),
     # As printed. 0.1 rad/sqrt(s) is about 300 times what the data sheet of the sensor says; no foot filter survives it.
-    "gui_table_1": SensorModel(*GUI_BIAS, 0.1, 0.1, **MPU_9250_RANGE),
+    "gui_table_1": GUI_TABLE_1,
     # 0.1 deg/sqrt(s), which may be meant: ten times the data sheet
-    "gui_table_1_deg": SensorModel(*GUI_BIAS, float(np.radians(0.1)), 0.1, **MPU_9250_RANGE),
+    "gui_table_1_deg": replace(GUI_TABLE_1, gyro_noise_density=float(np.radians(0.1))),
 }
 
 

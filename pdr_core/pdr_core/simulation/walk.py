@@ -9,10 +9,10 @@ from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.params import PlaceParams, SimulationParams
 from pdr_core.records import Floats, ImuBlock, Truth, TruthKind
+from pdr_core.simulation.courses import foot_course, gui_course
 from pdr_core.simulation.imu_model import SENSOR_MODELS, SensorModel, earth_in_foot, point_samples, sensed
 from pdr_core.simulation.motion import Course, Motion
 from pdr_core.simulation.shocks import shocks_mps2
-from pdr_core.simulation.courses import foot_course, gui_course
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from pdr_core.eskf.output import empty_nav, write
 from pdr_core.eskf.updates import inject
 from pdr_core.intake import Ingestion
 from pdr_core.maths import quaternion
-from pdr_core.params import SimulationParams, Params, PlaceParams, changed
+from pdr_core.params import Params, PlaceParams, SimulationParams, changed
 from pdr_core.records import FilterMode, PoseEstimate, joined, part
 from pdr_core.simulation import simulated_walk
 

@@ -9,7 +9,7 @@ from pdr_core.conventions import gravity_mps2
 from pdr_core.eskf import ZuptFilter
 from pdr_core.eskf.updates import zero_velocity
 from pdr_core.intake import Ingestion
-from pdr_core.params import SimulationParams, Params, changed
+from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import StanceBlock, part
 from pdr_core.simulation import simulated_walk

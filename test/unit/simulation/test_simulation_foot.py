@@ -35,7 +35,7 @@ def of(walk, **params):
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_gait_has_realistic_figures(name):
     gait, rates, accelerations, swings, stances, stills = FIGURES[name]
-    path, motion = walked([Stride(gait)] * 5)
+    _, motion = walked([Stride(gait)] * 5)
     assert rates[0] < np.linalg.norm(motion.rate_radps, axis=1).max() < rates[1]
     assert accelerations[0] < np.linalg.norm(motion.acceleration_mps2, axis=1).max() < accelerations[1]
     edges = np.flatnonzero(np.diff(motion.stance.astype(int))) / RATE_HZ
@@ -63,7 +63,7 @@ def test_in_swing_the_contact_moves():
 
 
 def test_a_foot_that_is_flat_is_perfectly_still():
-    path, motion = walked([Stride(WALK, turn_rad=0.3), Stride(WALK, pause_s=1.0)])
+    _, motion = walked([Stride(WALK, turn_rad=0.3), Stride(WALK, pause_s=1.0)])
     assert motion.still.sum() / RATE_HZ == pytest.approx(6.0 + 2 * WALK.flat_s + 1.0, abs=0.03)
     level = Rotation.from_quat(motion.quat_xyzw[motion.still]).apply([0.0, 0.0, 1.0])
     np.testing.assert_array_equal(level, np.tile([0.0, 0.0, 1.0], (len(level), 1)))

@@ -42,7 +42,7 @@ def test_the_acceleration_is_that_of_the_velocity(around):
 
 
 def test_the_rate_turns_the_attitude(around):
-    before, at, after = (Rotation.from_quat(m.quat_xyzw) for m in around)
+    before, _, after = (Rotation.from_quat(m.quat_xyzw) for m in around)
     np.testing.assert_allclose((before.inv() * after).as_rotvec() / (2 * H), around[1].rate_radps, atol=1e-5)
 
 

@@ -3,7 +3,7 @@ import copy
 import numpy as np
 import pytest
 
-from pdr_core.params import SimulationParams, PlaceParams, StanceParams
+from pdr_core.params import PlaceParams, SimulationParams, StanceParams
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
