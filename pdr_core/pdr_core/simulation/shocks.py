@@ -15,7 +15,7 @@ SHOCKS = 2  # this stream of a seed
 
 
 def shocks_mps2(time_s: Floats, strikes_s: Floats, strongest_mps2: float, seed: int) -> Floats:
-    """Return the specific force of the shocks in the foot frame, (n, 3), at ascending times (n,): up and to any side."""
+    """Return the force of the shocks in the foot frame, (n, 3) [m/s^2], at ascending times (n,): up and sideways."""
     rng = np.random.default_rng([seed, SHOCKS])
     direction = rng.standard_normal((len(strikes_s), 3))
     direction[:, 2] = np.abs(direction[:, 2])
