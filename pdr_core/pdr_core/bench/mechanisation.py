@@ -15,6 +15,8 @@ from pdr_core.maths.vector import mean
 from pdr_core.params import PlaceParams, SimulationParams
 from pdr_core.records import Floats, ImuBlock
 from pdr_core.simulation import SimulatedWalk, simulated_walk
+from pdr_core.simulation.gait import WALK, Stride
+from pdr_core.simulation.gui_motion import STANCE_S, STEP_LENGTH_M, SWING_S
 from pdr_core.strapdown.mechanisation import advance
 
 RATES_HZ = (50.0, 100.0, 200.0, 400.0, 1000.0)
@@ -37,8 +39,8 @@ class MechanisationError:
 def mechanisation_errors(walked_s: float = WALKED_S) -> list[MechanisationError]:
     """Return the errors on a straight walk of about `walked_s`, for both motions at every rate."""
     params = SimulationParams(walk="straight", sensor_model="ideal")
-    lengths_m = {"gui": 0.8 * walked_s, "smooth": 1.4 / 1.08 * walked_s}
-    walks = [replace(params, motion=motion, walk_length_m=length_m) for motion, length_m in lengths_m.items()]
+    speeds_mps = {"gui": STEP_LENGTH_M / (SWING_S + STANCE_S), "smooth": WALK.length_m / Stride(WALK).duration_s}
+    walks = [replace(params, motion=motion, walk_length_m=v * walked_s) for motion, v in speeds_mps.items()]
     return [error(replace(walk, sample_rate_hz=rate_hz)) for walk in walks for rate_hz in RATES_HZ]
 
 
