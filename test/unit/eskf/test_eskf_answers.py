@@ -9,13 +9,13 @@ from filter_cases import error_of, injected, judged, random_state, standing
 
 from pdr_core.eskf import ZuptFilter, heading
 from pdr_core.eskf.updates import correct_heading
-from pdr_core.params import DriverParams, Params, changed
+from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import HeadingObservation, HeadingSource, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
 
-WALK = simulated_walk(DriverParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0))
+WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0))
 ASKING = changed(Params(), "filter", heading_feedback=True)
 
 
