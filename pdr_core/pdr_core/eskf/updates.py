@@ -19,7 +19,7 @@ from pdr_core.maths.kalman import (
     normalised_squared,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
-from pdr_core.maths.vector import norm
+from pdr_core.maths.vector import Vector, norm
 from pdr_core.records import Floats
 
 HOPELESS_MPS = 2.0  # a standing foot that seems so fast is no matter of noise
@@ -105,7 +105,7 @@ def doubt(stamp_ns: int, state: FilterState) -> None:
 
 
 @compiled
-def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState) -> None:
+def zero_rate(rest_rate_radps: Vector, rest_sd_radps: float, state: FilterState) -> None:
     """Tell the filter the gyro bias that a rest has shown."""
     R = np.eye(3) * rest_sd_radps**2
     y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))
