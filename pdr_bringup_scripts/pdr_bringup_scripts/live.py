@@ -107,7 +107,7 @@ def total(params: Params) -> str:
     """Return how long the walk will take, as far as that is known before."""
     if params.driver.device != "simulated":
         return ""
-    return f" of {walk_duration_s(params.driver):.0f}"
+    return f" of {walk_duration_s(params.simulation):.0f}"
 
 
 def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:

@@ -25,12 +25,12 @@ class ImuDriverNode(ManagedNode):
     """Plays a device at its own pace, or at another. Begins when all listeners are there; ends when the device ends."""
 
     NAME = "imu_driver"
-    GROUPS = ("driver", "node")
+    GROUPS = ("driver", "simulation", "place", "node")
 
     def set_up(self, params: Params) -> None:
         """Open the device: give its samples, and its switches as services."""
         driver = params.driver
-        source = open_device(driver, self.get_clock().now().nanoseconds)
+        source = open_device(params, self.get_clock().now().nanoseconds)
         self._player = Player(source, driver.settling_s)
         self._frame_id = params.node.sensor_frame
         self._listeners = driver.subscribers

@@ -27,10 +27,14 @@ class ImuIngestionNode(ManagedNode):
         self.input(
             Imu, "imu/data_raw", imu_block, self._take, driver_input(params.node.input_reliable), restarts_anew=True
         )
+        # half the time: what waits here must reach the stance detector before that gives out what waits there
+        self.when_idle(params.node.idle_s / 2.0, lambda: self._publish(self._intake.finish()))
         self.tell("samples", lambda: self._intake.notices)
 
     def _take(self, raw: ImuBlock) -> None:
-        block = self._intake.run(raw)
+        self._publish(self._intake.run(raw))
+
+    def _publish(self, block: ImuBlock) -> None:
         for i in range(length(block)):
             self._samples.publish(imu_message(block, i, self._frame_id))
 

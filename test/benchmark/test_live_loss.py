@@ -33,10 +33,10 @@ def heard(bag: Path, topic: str) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.usefixtures("ros_environment")
 @pytest.mark.parametrize("rate_hz", [200.0, 1000.0])
 def test_a_minute_live_loses_nothing(tmp_path: Path, rate_hz: float) -> None:
-    params = changed(Params(), "driver", walk_length_m=LENGTH_M, sample_rate_hz=rate_hz)
-    sent_ns = simulated_walk(params.driver, params.place).imu.stamp_ns
+    params = changed(Params(), "simulation", walk_length_m=LENGTH_M, sample_rate_hz=rate_hz)
+    sent_ns = simulated_walk(params.simulation, params.place).imu.stamp_ns
     assert sent_ns[-1] - sent_ns[0] > 59e9
-    (tmp_path / "params.yaml").write_text(f"/**: {{ros__parameters: {{driver: {{sample_rate_hz: {rate_hz}}}}}}}")
+    (tmp_path / "params.yaml").write_text(f"/**: {{ros__parameters: {{simulation: {{sample_rate_hz: {rate_hz}}}}}}}")
     run = pdr("demo", "--length", LENGTH_M, "--params", tmp_path / "params.yaml", "--out", tmp_path / "out")
     assert run.returncode == 0, run.stderr
     received = {topic: heard(tmp_path / "out" / "recording", topic) for topic in TOPICS}
