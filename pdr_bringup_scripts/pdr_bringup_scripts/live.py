@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from pdr_bringup_scripts.book import Book, make_folder
-from pdr_bringup_scripts.chain import Chain, stay_on_this_machine
+from pdr_bringup_scripts.chain import NAMESPACE, Chain, stay_on_this_machine
 from pdr_bringup_scripts.listener import STATUS_TOPICS, Ears, bag_writer, message
 from pdr_bringup_scripts.live_recording import notices, outputs
 from pdr_bringup_scripts.problems import Problem
@@ -28,7 +28,14 @@ NOTHING_S = 30.0
 SHOW_EVERY = 20  # odometry messages
 
 
-def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, source: Sensor | None = None) -> Result:
+def live_run(
+    params: Params,
+    out: Path,
+    domain: int | None,
+    terminal: Terminal,
+    source: Sensor | None = None,
+    namespace: str = NAMESPACE,
+) -> Result:
     """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`.
 
     The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
@@ -37,19 +44,19 @@ def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, 
     params = replace(params, node=replace(params.node, input_reliable=True))  # the driver is ours
     warm_up()  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
-    record(params, out, domain, terminal)
-    return judge(params, out, time.monotonic() - begin, source)
-
-
-def record(params: Params, out: Path, domain: int | None, terminal: Terminal) -> None:
-    """Run the nodes and write all they say to a bag."""
     stay_on_this_machine(out / "nodes", domain)
+    record(params, out, namespace, terminal)
+    return judge(params, out, time.monotonic() - begin, source, namespace)
+
+
+def record(params: Params, out: Path, namespace: str, terminal: Terminal) -> None:
+    """Run the nodes and write all they say to a bag."""
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
         bag = stack.enter_context(bag_writer(out / BAG))
         watch = Watch(bag.write, show, total(params))
-        ears = stack.enter_context(Ears(watch.take))
-        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params)))
+        ears = stack.enter_context(Ears(watch.take, namespace))
+        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), namespace))
         while not (chain.driver_is_done and watch.quiet_s > QUIET_S):
             ears.listen(0.1)
             chain.check()
@@ -99,7 +106,7 @@ def total(params: Params) -> str:
     return f" of {walk_duration_s(params.driver):.0f}"
 
 
-def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:
+def judge(params: Params, out: Path, seconds: float, source: Sensor | None, namespace: str) -> Result:
     """Compare what the nodes said with the truth, and write the files of the run."""
     session = open_recording(out / BAG)
     (sensor,) = session.sensors.values()
@@ -108,4 +115,4 @@ def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> R
         for output in outputs(out / BAG):
             book.keep(output)
         samples = sum(length(piece) for piece in sensor.pieces())
-        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG))
+        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG, namespace))

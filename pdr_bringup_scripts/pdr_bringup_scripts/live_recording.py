@@ -31,9 +31,10 @@ def outputs(bag: Path) -> Iterator[FootOutput]:
         steps = []
 
 
-def notices(bag: Path) -> list[Notice]:
-    """Return the last word of every node on what was wrong."""
-    last = {status.name: status for m in messages(bag, "diagnostics") for status in m.status}
+def notices(bag: Path, namespace: str) -> list[Notice]:
+    """Return the last word of every node of our namespace on what was wrong: anybody speaks on that topic."""
+    spoken = (status for m in messages(bag, "diagnostics") for status in m.status)
+    last = {status.name: status for status in spoken if status.name.startswith(f"{namespace}/")}
     return [notice for status in last.values() for notice in notices_from(status)]
 
 

@@ -1,4 +1,4 @@
-"""Opens rosbag2 recordings and ROS 1 bags: every sensor_msgs/Imu topic is a sensor, every ground_truth topic a truth."""
+"""Opens rosbag2 recordings and ROS 1 bags: every sensor_msgs/Imu topic is a sensor, each ground_truth topic a truth."""
 
 from collections.abc import Iterable
 from contextlib import suppress

@@ -13,9 +13,9 @@ TABLES = {".mat", ".csv", ".tsv", ".txt"}
 def open_recording(path: Path | str, column_map: Path | None = None) -> Session:
     """Open a recording of any known format; RecordingError says in one sentence what to do where that fails.
 
-    `path` is a rosbag2 directory, a bare .mcap or .db3 file, a ROS 1 .bag, or a text or .mat file. `column_map` is a YAML file
-    that names the columns of a text or .mat file; without it `<recording>.yaml` or `pdr_columns.yaml` beside the
-    recording is used, and without those the formats that pdr knows.
+    `path` is a rosbag2 directory, a bare .mcap or .db3 file, a ROS 1 .bag, or a text or .mat file. `column_map` is a
+    YAML file that names the columns of a text or .mat file; without it `<recording>.yaml` or `pdr_columns.yaml` beside
+    the recording is used, and without those the formats that pdr knows.
     """
     session = _opened(Path(path), column_map)
     if all(next(sensor.pieces(1), None) is None for sensor in session.sensors.values()):
