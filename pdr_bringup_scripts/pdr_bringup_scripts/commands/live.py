@@ -20,6 +20,7 @@ def live(
     """
     from pdr_bringup_scripts.chain import checked_namespace
     from pdr_bringup_scripts.live_sensor import LiveJob, checked_topic, run_on_driver
+    from pdr_bringup_scripts.problems import Problem
     from pdr_bringup_scripts.relay import DriverTopics
     from pdr_bringup_scripts.run_folder import new_run_folder, show_result
     from pdr_bringup_scripts.terminal import Terminal
@@ -31,5 +32,7 @@ def live(
         chosen = changed(chosen, "driver", device=driver)
     home = checked_namespace(namespace)
     topics = DriverTopics(checked_topic(imu, home), checked_topic(mag, home) if mag else "", own_driver)
+    if topics.imu == topics.mag:
+        raise Problem(f"{topics.imu} cannot be both --imu and --mag: a topic has one type")
     folder = out or new_run_folder("live")
     show_result(run_on_driver(chosen, LiveJob(topics, own_driver, home, duration), folder, Terminal()), folder)
