@@ -189,7 +189,7 @@ def test_two_sensors_go_into_a_bag_but_not_into_one_csv(tmp_path):
     write_bag(tmp_path / "walk", imu_messages(5, "/left/imu/data") + imu_messages(5, "/right/imu/data_raw"), "mcap")
     _, after = converted(tmp_path / "walk", tmp_path / "out")
     assert sorted(after.sensors) == ["left/imu", "right/imu"]
-    with pytest.raises(RecordingError, match="one sensor; choose from .*left/imu"):
+    with pytest.raises(RecordingError, match=r"one sensor; choose from .*left/imu"):
         converted(tmp_path / "walk", tmp_path / "out.csv")
 
 
