@@ -28,7 +28,8 @@ def simulate(
 
     chosen = load_params(params) if params else Params()
     wanted = {
-        "motion": motion, "walk": walk, "walk_length_m": length, "sample_rate_hz": rate, "sensor_model": sensor, "seed": seed,
+        "motion": motion, "walk": walk, "walk_length_m": length,
+        "sample_rate_hz": rate, "sensor_model": sensor, "seed": seed,
     }  # fmt: skip
     given = {name: value for name, value in wanted.items() if value is not None}
     session = simulated_session(chosen, given, out)
