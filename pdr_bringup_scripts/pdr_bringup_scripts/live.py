@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from pdr_bringup_scripts.book import Book, make_folder
-from pdr_bringup_scripts.chain import Chain, stay_on_this_machine
+from pdr_bringup_scripts.chain import NAMESPACE, Chain, stay_on_this_machine
 from pdr_bringup_scripts.listener import STATUS_TOPICS, Ears, bag_writer, message
 from pdr_bringup_scripts.live_recording import notices, outputs
 from pdr_bringup_scripts.problems import Problem
@@ -30,7 +30,14 @@ IDLE_MAX_S = 10.0
 SHOW_EVERY = 20  # odometry messages
 
 
-def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, source: Sensor | None = None) -> Result:
+def live_run(
+    params: Params,
+    out: Path,
+    domain: int | None,
+    terminal: Terminal,
+    source: Sensor | None = None,
+    namespace: str = NAMESPACE,
+) -> Result:
     """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`.
 
     The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
@@ -39,8 +46,9 @@ def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, 
     params = for_one_run(params)
     warm_up()  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
-    record(params, out, domain, terminal)
-    return judge(params, out, time.monotonic() - begin, source)
+    stay_on_this_machine(out / "nodes", domain)
+    record(params, out, namespace, terminal)
+    return judge(params, out, time.monotonic() - begin, source, namespace)
 
 
 def for_one_run(params: Params) -> Params:
@@ -51,21 +59,24 @@ def for_one_run(params: Params) -> Params:
     return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
 
 
-def record(params: Params, out: Path, domain: int | None, terminal: Terminal) -> None:
+def record(params: Params, out: Path, namespace: str, terminal: Terminal) -> None:
     """Run the nodes and write all they say to a bag."""
-    stay_on_this_machine(out / "nodes", domain)
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
         bag = stack.enter_context(bag_writer(out / BAG))
         watch = Watch(bag.write, show, total(params))
-        ears = stack.enter_context(Ears(watch.take))
-        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params)))
-        quiet_s = 2.0 * params.node.idle_s + AFTERWARDS_S
-        while not (chain.driver_is_done and watch.quiet_s > quiet_s):
+        ears = stack.enter_context(Ears(watch.take, namespace))
+        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), namespace))
+        while not (chain.driver_is_done and watch.quiet_s > quiet_for_good_s(params)):
             ears.listen(0.1)
             chain.check()
             if watch.quiet_s > NOTHING_S:
                 raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
+
+
+def quiet_for_good_s(params: Params) -> float:
+    """Return the silence [s] after which nothing more comes: the nodes have given out what waited."""
+    return 2.0 * params.node.idle_s + AFTERWARDS_S
 
 
 class Watch:
@@ -110,7 +121,7 @@ def total(params: Params) -> str:
     return f" of {walk_duration_s(params.simulation):.0f}"
 
 
-def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:
+def judge(params: Params, out: Path, seconds: float, source: Sensor | None, namespace: str) -> Result:
     """Compare what the nodes said with the truth, and write the files of the run."""
     session = open_recording(out / BAG)
     (sensor,) = session.sensors.values()
@@ -119,4 +130,4 @@ def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> R
         for output in outputs(out / BAG, params.node.odom_rate_hz):
             book.keep(output)
         samples = sum(length(piece) for piece in sensor.pieces())
-        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG))
+        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG, namespace))

@@ -37,9 +37,13 @@ def outputs(bag: Path, odom_rate_hz: float) -> Iterator[FootOutput]:
         steps = []
 
 
-def notices(bag: Path) -> list[Notice]:
-    """Return the last word of every node on what was wrong; that the samples have come to their end is not."""
-    last = {status.name: status for m in messages(bag, "diagnostics") for status in m.status}
+def notices(bag: Path, namespace: str) -> list[Notice]:
+    """Return the last word of every node of our namespace on what was wrong: anybody speaks on that topic.
+
+    That the samples have come to their end is not wrong.
+    """
+    spoken = (status for m in messages(bag, "diagnostics") for status in m.status)
+    last = {status.name: status for status in spoken if status.name.startswith(f"{namespace}/")}
     found = [notice for status in last.values() for notice in notices_from(status.values)]
     return [notice for notice in found if notice.kind != NO_INPUT]
 

@@ -189,6 +189,7 @@ class DriverParams:
 
     device: str = parameter("simulated", "where the samples come from", choices=("simulated", "replayed"))
     recording: str = parameter("", "path of the recording to replay")
+    columns: str = parameter("", "column map of a text recording; empty: the one beside it, or a known format")
     sensor: str = parameter("", "which sensor of the recording; empty: the only one")
     rate_factor: float = parameter(
         1.0, "speed of the replay; 0: as fast as the subscribers take it", bounds=(0.0, 1000.0)

@@ -1,5 +1,8 @@
 """Between messages and records: the only place where the two meet. Stamps are int64 nanoseconds on our side."""
 
+import math
+import sys
+
 import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, PoseStamped, PoseWithCovariance, Quaternion, TransformStamped, Vector3
@@ -37,19 +40,27 @@ def numbers(v: Vector3 | Point) -> list[float]:
 
 def isotropic(sd: float) -> Floats:
     """Return a covariance, (9,) row major, of equal deviations; -1 first where there is no measurement."""
+    covariance = np.zeros(9)
     if sd < 0.0:
-        return np.array([NOT_MEASURED] + [0.0] * 8)
-    return np.array([sd**2, 0.0, 0.0, 0.0, sd**2, 0.0, 0.0, 0.0, sd**2])
+        covariance[0] = NOT_MEASURED
+    else:
+        covariance[::4] = sd**2
+    return covariance
 
 
 def deviation(covariance: Floats) -> float:
     """Return the standard deviation of one axis, -1 where there is no measurement."""
-    return -1.0 if covariance[0] == NOT_MEASURED else float(np.sqrt(max(covariance[0], 0.0)))
+    variance = float(covariance[0])
+    return -1.0 if variance == NOT_MEASURED else math.sqrt(max(variance, 0.0))
 
 
 def imu_message(block: ImuBlock, i: int, frame_id: str) -> Imu:
-    """Return sample i of a block. The orientation is not measured."""
-    message = Imu()
+    """Return sample i of a block."""
+    return with_sample(Imu(), block, i, frame_id)
+
+
+def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str) -> Imu:
+    """Fill a message with sample i of a block. The orientation is not measured."""
     message.header.stamp = time_message(int(block.stamp_ns[i]))
     message.header.frame_id = frame_id
     message.orientation_covariance = isotropic(NOT_MEASURED)
@@ -74,7 +85,8 @@ def imu_block(message: Imu) -> ImuBlock:
 
 def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
     """Return sample i of a block with its verdict."""
-    message = StanceImu(imu=imu_message(block.imu, i, frame_id))
+    message = StanceImu()
+    with_sample(message.imu, block.imu, i, frame_id)  # a second Imu would cost as much as all the rest
     message.magnetic_field.magnetic_field_covariance = isotropic(NOT_MEASURED)
     message.stance = bool(block.stance[i])
     message.statistic = finite(block.statistic[i])
@@ -87,7 +99,7 @@ def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
 
 def finite(value: float) -> float:
     """Return the value, or the largest number in place of infinity."""
-    return float(np.minimum(value, np.finfo(np.float64).max))
+    return min(float(value), sys.float_info.max)
 
 
 def stance_block(message: StanceImu) -> StanceBlock:

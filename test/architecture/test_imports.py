@@ -52,6 +52,7 @@ MAY_IMPORT = {
     # commands see stages through the pipeline only, and of the nodes what reads their messages
     "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich yaml {READS}",
     "pdr_bringup_scripts.listener": f"{BASE} {READS} rclpy ament_index_python pdr_core.recording.bag_writer",
+    "pdr_bringup_scripts.relay": f"{READS} rclpy sensor_msgs",
     # reads back our own messages, which are no recording of samples; the door to those is `open_recording`
     "pdr_bringup_scripts.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline pdr_bringup_scripts.problems",
 }
