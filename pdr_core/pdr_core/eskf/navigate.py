@@ -9,7 +9,7 @@ from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import stance_is_over, stand
 from pdr_core.eskf.updates import zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import difference, mean
+from pdr_core.maths.vector import Triple, Vector, difference, mean
 from pdr_core.records import NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance
 
@@ -48,11 +48,19 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
     state.coasting = False
-    force_before = difference(state.last_force_mps2, state.accel_bias_mps2)
-    force_after = difference(block.imu.accel_mps2[i], state.accel_bias_mps2)
-    rate = difference(mean(state.last_rate_radps, block.imu.gyro_radps[i]), state.gyro_bias_radps)
+    force, rate = block.imu.accel_mps2[i], block.imu.gyro_radps[i]
+    force_before = difference(at_start(state.last_force_mps2, force, s.means), state.accel_bias_mps2)
+    force_after = difference(force, state.accel_bias_mps2)
+    mean_rate = difference(mean(at_start(state.last_rate_radps, rate, s.means), rate), state.gyro_bias_radps)
     R_before, R_after = advance(
-        state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
+        state.position_m,
+        state.velocity_mps,
+        state.quat_xyzw,
+        mean_rate,
+        force_before,
+        force_after,
+        dt_s,
+        state.gravity_mps2,
     )
     k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
     q = noise(block.imu.accel_sd_mps2[i], block.imu.gyro_sd_radps[i], dt_s, s.process)
@@ -60,6 +68,14 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
+
+
+@compiled
+def at_start(before: Vector, now: Vector, means: bool) -> Triple:
+    """Return what the sensor felt at the start of the interval: a mean over the interval holds from its start on."""
+    if means:
+        return now[0], now[1], now[2]
+    return before[0], before[1], before[2]
 
 
 @compiled
