@@ -46,6 +46,12 @@ class IntakeParams:
     restart_s: float = parameter(
         1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
     )
+    constant_rate_hz: float = parameter(
+        0.0,
+        "rate at which samples are stamped anew, for drivers that stamp on arrival; 0: the stamps as they come",
+        unit="Hz",
+        bounds=(0.0, 4000.0),
+    )
 
 
 @dataclass(frozen=True)
@@ -154,6 +160,12 @@ class FilterParams:
         unit="s",
         bounds=(0.0, 5.0),
         source="measured on real walks",
+    )
+    heading_feedback: bool = parameter(
+        False, "every step waits for its heading observation: set it where a node or stage gives them"
+    )
+    heading_due_s: float = parameter(
+        0.1, "so long after a step is known its heading observation applies", unit="s", bounds=(0.0, 5.0)
     )
     gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
     gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))

@@ -2,15 +2,14 @@
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Point, PoseStamped, Quaternion, TransformStamped, Vector3
+from geometry_msgs.msg import Point, PoseStamped, PoseWithCovariance, Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
 from pdr_core import records
-from pdr_core.conventions import NANOSECONDS
+from pdr_core.conventions import NANOSECONDS, NO_STAMP
 from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock
 from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
-from pdr_msgs.srv import ResetEstimate
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
 
@@ -145,6 +144,8 @@ def step_message(step: records.StepEvent, world_frame: str, foot_frame: str) -> 
     message.header.frame_id = world_frame
     message.child_frame_id = foot_frame
     message.index = step.index
+    if step.answer_due_ns != NO_STAMP:
+        message.answer_due = time_message(step.answer_due_ns)
     message.start = time_message(step.start_ns)
     message.position.x, message.position.y, message.position.z = step.position_m.tolist()
     message.displacement = vector(step.displacement_m)
@@ -168,6 +169,7 @@ def step_event(message: StepEvent) -> records.StepEvent:
         displacement_covariance_m2=np.array(message.displacement_covariance).reshape(3, 3),
         yaw_rad=message.yaw,
         yaw_sd_rad=message.yaw_stddev,
+        answer_due_ns=stamp_ns(message.answer_due) or NO_STAMP,
     )
 
 
@@ -211,12 +213,12 @@ def health_message(
     return message
 
 
-def pose_of_reset(request: ResetEstimate.Request) -> records.PoseEstimate:
-    """Return the pose that a reset asks for; ValueError if it holds something that is not a pose."""
-    position, q = request.pose.pose.position, request.pose.pose.orientation
+def pose_estimate(message: PoseWithCovariance) -> records.PoseEstimate:
+    """Return a message as a pose, without attitude where its quaternion is zero; ValueError if it is no pose."""
+    position, q = message.pose.position, message.pose.orientation
     position_m = np.array([position.x, position.y, position.z])
     xyzw = np.array([q.x, q.y, q.z, q.w])
-    covariance = np.array(request.pose.covariance).reshape(6, 6)
+    covariance = np.array(message.covariance).reshape(6, 6)
     if not (np.isfinite(position_m).all() and np.isfinite(xyzw).all() and np.isfinite(covariance).all()):
         raise ValueError("the pose holds NaN or infinity")
     if (np.diag(covariance) < 0.0).any():

@@ -5,12 +5,12 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 
 from pdr_core.eskf import ZuptFilter
+from pdr_core.records import Handover, length
 from pdr_core.records import StepEvent as Step
-from pdr_core.records import length
 from pdr_core.warmup import warm_up
 from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
 from pdr_msgs.srv import ResetEstimate
-from pdr_nodes.convert import health_message, odometry_message, pose_of_reset, stamp_ns, stance_block, step_message
+from pdr_nodes.convert import health_message, odometry_message, pose_estimate, stamp_ns, stance_block, step_message
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch
 from pdr_nodes.notice_board import NoticeBoard
@@ -66,7 +66,8 @@ class ZuptEkfNode(Node):
 
     def _reset(self, request: ResetEstimate.Request, response: ResetEstimate.Response) -> ResetEstimate.Response:
         try:
-            self._filter.reset(pose_of_reset(request), request.keep_biases)
+            pose, now = pose_estimate(request.pose), self._filter.handover
+            self._filter.reset(Handover(now.stamp_ns, pose, now.biases if request.keep_biases else None))
         except ValueError as error:
             response.success, response.message = False, str(error)
         else:

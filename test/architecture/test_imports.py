@@ -23,7 +23,7 @@ RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.record
 # module or package -> what it and all below it may import beside the standard library and itself; the longest name wins
 MAY_IMPORT = {
     "pdr_core": "",
-    "pdr_core.records": "numpy",
+    "pdr_core.records": "numpy pdr_core.conventions",
     "pdr_core.conventions": "numpy",
     "pdr_core.parameter": "",
     "pdr_core.params": "pdr_core.parameter",

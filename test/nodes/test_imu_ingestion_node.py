@@ -6,6 +6,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu
 
+from pdr_core.intake.stamp_faults import NOTICES, Fault
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
 from pdr_nodes.qos import STATUS
 from support.bench import Bench
@@ -61,6 +62,21 @@ def test_bad_samples_never_come_out_and_are_named():
     assert np.isfinite(values).all()
     assert {level for level, _ in told(diagnostics).values()} == {b"\x01"}
     assert told(diagnostics)["not_finite"][1].startswith("2 x ")
+
+
+def test_what_is_wrong_with_the_stamps_is_named_and_nothing_waits_for_ever():
+    """Ten samples with one stamp, a stray, and a clock that is set an hour ahead with the last sample."""
+    block = still(1.0, BEGIN_NS)
+    block.gyro_radps[:, 0] = np.linspace(0.0, 0.1, 100)
+    block.stamp_ns[40:50] = block.stamp_ns[49]
+    block.stamp_ns[70] -= 10**10
+    block.stamp_ns[99] += 3600 * 10**9
+    with Bench(ImuIngestionNode, node__idle_s=0.4) as bench:
+        out, diagnostics = driven(bench, imu_messages(block), 90)
+        kinds = {"equal_stamps", "stray_stamp", "clock_jumped_forth"}
+        bench.until(lambda: set(told(diagnostics)) == kinds, f"{kinds} on /diagnostics", NAMED_WITHIN_S)
+    assert stamps(out) == np.delete(block.stamp_ns, np.r_[41:50, 70]).tolist()
+    assert told(diagnostics)["equal_stamps"][1] == "9 x " + NOTICES[Fault.EQUAL][2]
 
 
 @pytest.mark.parametrize(

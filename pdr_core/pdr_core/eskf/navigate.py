@@ -101,14 +101,18 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
 
 
 @compiled
-def navigate(block: StanceBlock, start: int, s: Settings, state: FilterState, out: NavBlock) -> tuple[int, bool]:
-    """Take samples from `start` on, until the stamp of one shows that a stance is over, or there are no more.
+def navigate(
+    block: StanceBlock, start: int, stop_ns: int, s: Settings, state: FilterState, out: NavBlock
+) -> tuple[int, bool]:
+    """Take samples from `start` on, until the stamp of one shows that a stance is over, or reaches `stop_ns`.
 
     Returns the index of the next sample to take, and whether a stance is over.
     """
     for i in range(start, block.imu.stamp_ns.shape[0]):
         if stance_is_over(block.imu.stamp_ns[i], s.merge_ns, state):
             return i, True
+        if block.imu.stamp_ns[i] >= stop_ns:
+            return i, False
         sample_step(block, i, s, state)
         write(out, i, state)
     return block.imu.stamp_ns.shape[0], False

@@ -39,10 +39,11 @@ def stance_is_over(stamp_ns: int, merge_ns: int, state: FilterState) -> bool:
     return state.end_ns[1] != NO_STAMP and abs(stamp_ns - state.end_ns[1]) > merge_ns
 
 
-def step_taken(state: FilterState) -> StepEvent | None:
+def step_taken(state: FilterState, answer_due_ns: int) -> StepEvent | None:
     """Return the step to the end of the stance noted last, from which the next one begins.
 
-    The first stance has no step before it: it is where the walk starts, and None is returned.
+    The first stance has no step before it: it is where the walk starts, and None is returned. `answer_due_ns` is the
+    stamp at which the filter will wait for the heading observation, or NO_STAMP.
     """
     step = None
     if state.end_ns[0] != NO_STAMP:
@@ -55,6 +56,7 @@ def step_taken(state: FilterState) -> StepEvent | None:
             displacement_covariance_m2=state.displacement_covariance.copy(),
             yaw_rad=float(state.end_yaw_rad[1]),
             yaw_sd_rad=float(state.end_yaw_sd_rad[1]),
+            answer_due_ns=answer_due_ns,
         )
     begin_next(state)
     return step

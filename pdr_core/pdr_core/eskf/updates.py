@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import NO_STAMP
-from pdr_core.eskf import zaru, zupt
+from pdr_core.eskf import heading, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
@@ -139,3 +139,11 @@ def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState)
     R = np.eye(3) * rest_sd_radps**2
     y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))
     apply(y, zaru.H, gain(y), state)
+
+
+@compiled
+def correct_heading(yaw_error_rad: float, sd_rad: float, state: FilterState) -> None:
+    """Tell the filter by how much its track is turned too far."""
+    R = np.eye(1) * sd_rad**2
+    y = innovation(state.P, heading.H, R, heading.residual(yaw_error_rad))
+    apply(y, heading.H, gain(y), state)

@@ -2,26 +2,28 @@
 
 import numpy as np
 
-from pdr_core.conventions import GAP_NS, NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
-from pdr_core.intake.plausibility import Plausibility
-from pdr_core.intake.stream_guard import FAULTS, Fault, GuardLimits, admitted, fresh_state
+from pdr_core.conventions import NO_STAMP, STANDARD_GRAVITY_MPS2
+from pdr_core.intake.noise import channels, sample_noise
+from pdr_core.intake.plausibility import Plausibility, plausible
+from pdr_core.intake.stamp_policy import StampPolicy
 from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
-from pdr_core.records import Flags, Floats, ImuBlock, Level, Notice, Stamps
+from pdr_core.records import Flags, ImuBlock, Level, Notice, Stamps
 
 ACCEL_UNITS = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2}
 GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
 
 
 class Ingestion:
-    """Guards the stream, converts units, judges saturation and turns the sensor's axes into the foot's."""
+    """Leaves out what is no number, sees to the stamps, converts units, judges saturation and turns the axes."""
 
     def __init__(self, params: IntakeParams) -> None:
         self._params = params
-        self._limits = GuardLimits(round(params.restart_s * NANOSECONDS))
-        self._guard = fresh_state()
+        self._stamps = StampPolicy(params)
+        self._gyro, self._accel = channels(params)
+        self._last_ns = NO_STAMP
         self._plausibility = Plausibility()
         self._tally = Tally()
         self._R_foot_from_sensor = quaternion.matrix(
@@ -29,27 +31,30 @@ class Ingestion:
         )
 
     def run(self, raw: ImuBlock) -> ImuBlock:
-        """Return the samples of `raw` that can be used, in SI units and foot axes, with their noise."""
-        good, interval_s = self._guarded(raw)
-        si = self._in_si_units(good)
-        self._plausibility.watch(si, self._tally)
-        noisy = self._with_noise(si, interval_s)
-        return self._in_foot_axes(noisy)
+        """Return the samples of `raw`, and one that waited, that can be used, in SI units, foot axes, with noise."""
+        return self._conditioned(self._stamps.run(self._numbers(raw)))
+
+    def finish(self) -> ImuBlock:
+        """Return the sample that still waits for a later one, if one does."""
+        return self._conditioned(self._stamps.finish())
 
     @property
     def notices(self) -> list[Notice]:
         """What was wrong with the samples so far."""
-        return self._tally.notices
+        return self._tally.notices + self._stamps.notices
 
-    def _guarded(self, raw: ImuBlock) -> tuple[ImuBlock, Floats]:
-        before_ns = self._guard.last_ns[0]
+    def _numbers(self, raw: ImuBlock) -> ImuBlock:
         raw = ImuBlock._make(np.ascontiguousarray(column) for column in raw)
-        faults = admitted(raw, self._limits, self._guard)
-        for fault, (kind, level, text) in FAULTS.items():
-            self._tally.add_flagged(kind, level, text, faults == fault, raw.stamp_ns)
-        passes = (faults == Fault.NONE) | (faults == Fault.GAP) | (faults == Fault.RESTART)
-        good = ImuBlock._make(column[passes] for column in raw)
-        return good, intervals_s(good.stamp_ns, before_ns, GAP_NS / NANOSECONDS)
+        good = plausible(raw.gyro_radps, raw.accel_mps2)
+        if good.all():
+            return raw
+        self._note("not_finite", "samples hold NaN, infinity or absurd numbers: left out", ~good, raw.stamp_ns)
+        return ImuBlock._make(column[good] for column in raw)
+
+    def _conditioned(self, good: ImuBlock) -> ImuBlock:
+        si = self._in_si_units(good)
+        self._plausibility.watch(si, self._tally)
+        return self._in_foot_axes(self._with_noise(si))
 
     def _in_si_units(self, block: ImuBlock) -> ImuBlock:
         return block._replace(
@@ -57,17 +62,14 @@ class Ingestion:
             accel_mps2=block.accel_mps2 * ACCEL_UNITS[self._params.accel_unit],
         )
 
-    def _with_noise(self, block: ImuBlock, interval_s: Floats) -> ImuBlock:
-        p = self._params
-        gyro_full = saturated(block.gyro_radps, p.gyro_range_radps)
-        accel_full = saturated(block.accel_mps2, p.accel_range_mps2)
-        gyro_off = block.gyro_sd_radps < 0.0
-        self._note("gyro_saturated", "the gyro saturates: choose a larger range", gyro_full, block.stamp_ns)
-        self._note("accel_saturated", "the accelerometer saturates: choose a larger range", accel_full, block.stamp_ns)
-        self._note("gyro_off", "the gyro is off: the track is held until it is on again", gyro_off, block.stamp_ns)
-        gyro_sd = np.hypot(p.gyro_noise_density / np.sqrt(interval_s), gyro_full * p.saturated_gyro_sd_radps)
-        accel_sd = np.hypot(p.accel_noise_density / np.sqrt(interval_s), accel_full * p.saturated_accel_sd_mps2)
-        return block._replace(gyro_sd_radps=np.where(gyro_off, -1.0, gyro_sd), accel_sd_mps2=accel_sd)
+    def _with_noise(self, si: ImuBlock) -> ImuBlock:
+        gyro_sd, accel_sd, gyro_full, accel_full = sample_noise(si, self._last_ns, self._gyro, self._accel)
+        if len(si.stamp_ns):
+            self._last_ns = int(si.stamp_ns[-1])
+        self._note("gyro_saturated", "the gyro saturates: choose a larger range", gyro_full, si.stamp_ns)
+        self._note("accel_saturated", "the accelerometer saturates: choose a larger range", accel_full, si.stamp_ns)
+        self._note("gyro_off", "the gyro is off: the track is held until it is on again", gyro_sd < 0.0, si.stamp_ns)
+        return si._replace(gyro_sd_radps=gyro_sd, accel_sd_mps2=accel_sd)
 
     def _note(self, kind: str, text: str, flags: Flags, stamps_ns: Stamps) -> None:
         self._tally.add_flagged(kind, Level.WARN, text, flags, stamps_ns)
@@ -77,15 +79,3 @@ class Ingestion:
             gyro_radps=each_rotated(self._R_foot_from_sensor, block.gyro_radps),
             accel_mps2=each_rotated(self._R_foot_from_sensor, block.accel_mps2),
         )
-
-
-def intervals_s(stamps_ns: Stamps, before_ns: int, longest_s: float) -> Floats:
-    """Return the time [s] from each sample's predecessor, (n,), bounded by a gap's length, which the first one gets."""
-    before = [before_ns] if before_ns != NO_STAMP else stamps_ns[:1]
-    interval_s = np.diff(stamps_ns, prepend=np.asarray(before, np.int64)) / NANOSECONDS
-    return np.where(interval_s > 0.0, np.minimum(interval_s, longest_s), longest_s)
-
-
-def saturated(values: Floats, full_scale: float) -> Flags:
-    """Return which samples (n, 3) have an axis within 0.5 % of the sensor's range, (n,)."""
-    return np.abs(values).max(axis=1, initial=0.0) >= 0.995 * full_scale

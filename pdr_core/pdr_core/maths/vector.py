@@ -75,6 +75,12 @@ def norm(v: Vector) -> float:
 
 
 @compiled
+def within(v: Vector, bound: float) -> bool:
+    """Return whether every magnitude is below the bound; NaN never is."""
+    return abs(v[0]) < bound and abs(v[1]) < bound and abs(v[2]) < bound
+
+
+@compiled
 def inverse_positive(S: Floats) -> Floats:
     """Return the inverse of a small symmetric positive definite matrix (n, n): Cholesky's L, its inverse, L'^-1 L^-1.
 
