@@ -49,6 +49,11 @@ class Chain:
         """The driver has delivered everything and ended."""
         return self._processes[DRIVER].poll() is not None
 
+    @property
+    def pids(self) -> dict[str, int]:
+        """The process of each node."""
+        return {name: process.pid for name, process in self._processes.items()}
+
     def check(self) -> None:
         """Raise a Problem if a node has died."""
         for name, process in self._processes.items():

@@ -23,8 +23,10 @@ from pdr_nodes.convert import stamp_ns
 
 PIPELINE = "foot_inertial, live"
 BAG = "recording"
-QUIET_S = 3.5  # the nodes give out what waits after up to two seconds without samples
+LISTENERS = 2  # of the driver's samples: ingestion and the recording
+AFTERWARDS_S = 1.5  # beyond the time after which the nodes give out what waits
 NOTHING_S = 30.0
+IDLE_MAX_S = 10.0
 SHOW_EVERY = 20  # odometry messages
 
 
@@ -34,11 +36,19 @@ def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, 
     The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
     """
     make_folder(out)
-    params = replace(params, node=replace(params.node, input_reliable=True))  # the driver is ours
+    params = for_one_run(params)
     warm_up()  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
     record(params, out, domain, terminal)
     return judge(params, out, time.monotonic() - begin, source)
+
+
+def for_one_run(params: Params) -> Params:
+    """Return the parameters of a run whose nodes are all ours. Played slowly, a stream is idle after a longer time."""
+    slowness = max(1.0, 1.0 / params.driver.rate_factor) if params.driver.rate_factor else 1.0
+    idle_s = min(params.node.idle_s * slowness, IDLE_MAX_S)
+    node = replace(params.node, input_reliable=True, autostart=True, idle_s=idle_s)
+    return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
 
 
 def record(params: Params, out: Path, domain: int | None, terminal: Terminal) -> None:
@@ -50,7 +60,8 @@ def record(params: Params, out: Path, domain: int | None, terminal: Terminal) ->
         watch = Watch(bag.write, show, total(params))
         ears = stack.enter_context(Ears(watch.take))
         chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params)))
-        while not (chain.driver_is_done and watch.quiet_s > QUIET_S):
+        quiet_s = 2.0 * params.node.idle_s + AFTERWARDS_S
+        while not (chain.driver_is_done and watch.quiet_s > quiet_s):
             ears.listen(0.1)
             chain.check()
             if watch.quiet_s > NOTHING_S:
@@ -96,7 +107,7 @@ def total(params: Params) -> str:
     """Return how long the walk will take, as far as that is known before."""
     if params.driver.device != "simulated":
         return ""
-    return f" of {walk_duration_s(params.driver):.0f}"
+    return f" of {walk_duration_s(params.simulation):.0f}"
 
 
 def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:
@@ -105,7 +116,7 @@ def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> R
     (sensor,) = session.sensors.values()
     with ExitStack() as stack:
         book = Book(session, source or sensor, out, stack)
-        for output in outputs(out / BAG):
+        for output in outputs(out / BAG, params.node.odom_rate_hz):
             book.keep(output)
         samples = sum(length(piece) for piece in sensor.pieces())
         return book.close(PIPELINE, params, samples, seconds, notices(out / BAG))

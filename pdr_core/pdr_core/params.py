@@ -205,14 +205,47 @@ class DriverParams:
     acknowledge_topic: str = parameter(
         "odom", "as fast as possible: samples count as taken once their estimate appears on this topic"
     )
-    walk: str = parameter("rectangle", "the simulated walk", choices=("rectangle", "straight", "still"))
-    walk_length_m: float = parameter(36.0, "length of the simulated walk", unit="m", bounds=(0.0, 1e5))
-    sensor_model: str = parameter(
-        "consumer", "the simulated sensor", choices=("ideal", "consumer", "gui_table_1"), source="Gui Table 1"
-    )
-    sample_rate_hz: float = parameter(200.0, "rate of the simulated sensor", unit="Hz", bounds=(20.0, 4000.0))
-    seed: int = parameter(1, "seed of the simulated noise", bounds=(0, 2**31))
+    subscribers: int = parameter(1, "the first sample waits for so many subscribers", bounds=(1, 100))
     settling_s: float = parameter(0.05, "what the gyro needs after being switched on", unit="s", bounds=(0.0, 10.0))
+
+
+@dataclass(frozen=True)
+class SimulationParams:
+    """The simulated walk and the sensor that feels it."""
+
+    motion: str = parameter(
+        "gui", "how the foot moves: as Gui prints it, or smoothly", choices=("gui", "smooth"), source="Gui section 5.1"
+    )
+    walk: str = parameter(
+        "rectangle",
+        "the walk; gui knows the first three",
+        choices=("rectangle", "straight", "still", "curve", "stairs", "run", "mixed"),
+    )
+    walk_length_m: float = parameter(36.0, "length of the walk, without its stairs", unit="m", bounds=(0.0, 1e5))
+    pace: float = parameter(
+        1.0, "speed of the smooth foot beside its usual one; 2: a run is a sprint", bounds=(0.5, 3.0)
+    )
+    sensor_model: str = parameter(
+        "consumer",
+        "the sensor",
+        choices=("ideal", "consumer", "gui_table_1", "gui_table_1_deg"),
+        source="Gui Table 1",
+    )
+    sample_rate_hz: float = parameter(200.0, "rate of the sensor", unit="Hz", bounds=(20.0, 4000.0))
+    earth_rate: bool = parameter(False, "the gyro feels the Earth turn", source="Gui eq. 31")
+    mounting_roll_rad: float = parameter(
+        0.0, "roll of the sensor on the foot, fixed axes", unit="rad", bounds=(-3.15, 3.15)
+    )
+    mounting_pitch_rad: float = parameter(0.0, "pitch of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
+    mounting_yaw_rad: float = parameter(0.0, "yaw of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
+    gyro_range_radps: float = parameter(
+        0.0, "angular rate at which the gyro clips; 0: as its model does", unit="rad/s", bounds=(0.0, 200.0)
+    )
+    accel_range_mps2: float = parameter(
+        0.0, "specific force at which the accelerometer clips; 0: as its model does", unit="m/s^2", bounds=(0.0, 5e3)
+    )
+    shock_mps2: float = parameter(0.0, "strongest shock at heel strike", unit="m/s^2", bounds=(0.0, 500.0))
+    seed: int = parameter(1, "seed of noise, biases and shocks", bounds=(0, 2**31))
 
 
 @dataclass(frozen=True)
@@ -222,9 +255,19 @@ class NodeParams:
     world_frame: str = parameter("odom", "frame of the estimate", source="REP-105")
     foot_frame: str = parameter("foot", "frame of the foot")
     sensor_frame: str = parameter("imu_link", "frame of the sensor", source="REP-145")
+    autostart: bool = parameter(True, "become active without being told; false: wait for the lifecycle services")
     publish_tf: bool = parameter(False, "broadcast world_frame -> foot_frame; one node at a time may")
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
+    )
+    odom_rate_hz: float = parameter(
+        200.0,
+        "estimates are published at most so often, by their stamps; steps always",
+        unit="Hz",
+        bounds=(1.0, 4000.0),
+    )
+    answer_timeout_s: float = parameter(
+        0.5, "a step's heading observation is waited for so long; 0: for ever", unit="s", bounds=(0.0, 60.0)
     )
     idle_s: float = parameter(
         1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)
@@ -240,6 +283,7 @@ class Params:
     stance: StanceParams = field(default_factory=StanceParams)
     filter: FilterParams = field(default_factory=FilterParams)
     driver: DriverParams = field(default_factory=DriverParams)
+    simulation: SimulationParams = field(default_factory=SimulationParams)
     node: NodeParams = field(default_factory=NodeParams)
 
 

@@ -26,7 +26,8 @@ def stamp_ns(time: Time) -> int:
 
 def vector(v: Floats) -> Vector3:
     """Return three numbers as a message."""
-    return Vector3(x=float(v[0]), y=float(v[1]), z=float(v[2]))
+    x, y, z = v.tolist()
+    return Vector3(x=x, y=y, z=z)
 
 
 def numbers(v: Vector3 | Point) -> list[float]:
@@ -38,7 +39,7 @@ def isotropic(sd: float) -> Floats:
     """Return a covariance, (9,) row major, of equal deviations; -1 first where there is no measurement."""
     if sd < 0.0:
         return np.array([NOT_MEASURED] + [0.0] * 8)
-    return np.diag([sd**2] * 3).ravel()
+    return np.array([sd**2, 0.0, 0.0, 0.0, sd**2, 0.0, 0.0, 0.0, sd**2])
 
 
 def deviation(covariance: Floats) -> float:

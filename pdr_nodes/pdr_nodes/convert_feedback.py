@@ -7,6 +7,8 @@ from pdr_core.records import Biases, HeadingSource
 from pdr_msgs.msg import Handover, HeadingObservation
 from pdr_nodes.convert import numbers, pose_estimate, quaternion_message, stamp_ns, time_message, vector
 
+SOURCES = {source.value: source for source in HeadingSource}
+
 
 def heading_message(observation: records.HeadingObservation, foot_frame: str) -> HeadingObservation:
     """Return the answer to a step as a message."""
@@ -20,12 +22,12 @@ def heading_message(observation: records.HeadingObservation, foot_frame: str) ->
 
 
 def heading_observation(message: HeadingObservation) -> records.HeadingObservation:
-    """Return a message as the answer to a step; ValueError if its source is none that we know."""
+    """Return a message as the answer to a step; a source that we do not know is somebody else."""
     return records.HeadingObservation(
         step_index=message.step_index,
         step_ns=stamp_ns(message.header.stamp),
         applies_from_ns=stamp_ns(message.applies_from),
-        source=HeadingSource(message.source),
+        source=SOURCES.get(message.source, HeadingSource.EXTERNAL),
         yaw_error_rad=message.yaw_error,
         yaw_error_sd_rad=message.yaw_error_stddev,
     )

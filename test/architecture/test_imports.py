@@ -18,7 +18,7 @@ HELPERS = " ".join(f"pdr_nodes.{part}" for part in sorted(PARTS_OF_NODES) if not
 # `warmup` compiles all stages, so that a node that is started alone finds the cache that the others use
 NODE = f"{BASE} {MESSAGES} rclpy {HELPERS} pdr_core.warmup"
 READS = "pdr_nodes.convert pdr_nodes.notice_board pdr_nodes.qos"
-RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation"
+RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation pdr_core.bench"
 
 # module or package -> what it and all below it may import beside the standard library and itself; the longest name wins
 MAY_IMPORT = {
@@ -39,6 +39,7 @@ MAY_IMPORT = {
     "pdr_core.recording": f"{STAGE} rosbags mcap yaml apsw lz4 zstandard",
     "pdr_core.simulation": STAGE,
     "pdr_core.evaluation": f"{STAGE} plotly jinja2",
+    "pdr_core.bench": f"{STAGE} {ALL_STAGES} pdr_core.pipeline pdr_core.simulation pdr_core.evaluation",
     "pdr_nodes": f"{BASE} {MESSAGES} rclpy {HELPERS}",  # the helpers: neither a stage nor a device
     "pdr_nodes.qos": "rclpy",
     # `run` turns what a user can mend into one sentence, and a recording that cannot be opened is such a thing

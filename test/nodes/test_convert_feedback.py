@@ -36,9 +36,8 @@ def test_an_answer(source):
     assert_equal(heading_observation(heading_message(answer, "foot")), answer)
 
 
-def test_an_answer_of_an_unknown_source_is_refused():
-    with pytest.raises(ValueError):
-        heading_observation(HeadingMessage(source=99))
+def test_an_answer_of_an_unknown_source_is_one():
+    assert heading_observation(HeadingMessage(source=99)).source is HeadingSource.EXTERNAL
 
 
 @pytest.mark.parametrize("biases", [None, Biases(RNG.random(3), RNG.random(3), RNG.random((6, 6)))])

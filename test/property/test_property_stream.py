@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
 from pdr_core.intake.stamp_policy import StampPolicy
-from pdr_core.params import DriverParams, Params, changed
+from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
@@ -23,7 +23,7 @@ PARAMS = Params()
 
 def troubled_walk():
     """Return a walk with gap, restart, clock set, duplicate, swap, stray, burst, NaN, saturation and gyro pauses."""
-    sim = simulated_walk(DriverParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
+    sim = simulated_walk(SimulationParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
     imu = ImuBlock(*(column.copy() for column in sim.imu))
     imu.stamp_ns[450:] += 700_000_000
     imu.stamp_ns[601] = imu.stamp_ns[600]

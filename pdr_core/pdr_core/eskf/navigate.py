@@ -1,5 +1,7 @@
 """The filter's loop: align, propagate, update, one sample after the other. The only text of it, live and offline."""
 
+from typing import NamedTuple
+
 from pdr_core.conventions import GAP_NS, NO_STAMP
 from pdr_core.eskf.align import align
 from pdr_core.eskf.output import write
@@ -9,61 +11,82 @@ from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import stance_is_over, stand
 from pdr_core.eskf.updates import zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Triple, Vector, difference, mean
+from pdr_core.maths.vector import Triple, Vector, difference, mean, row
 from pdr_core.records import NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance
 
 UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
 
 
+class Sample(NamedTuple):
+    """One sample of a block: numbers, which cost compiled code less to hand on than ten arrays."""
+
+    stamp_ns: int
+    force_mps2: Triple
+    rate_radps: Triple
+    accel_sd_mps2: float
+    gyro_sd_radps: float
+    stance: bool
+    rest_rate_radps: Triple
+    rest_sd_radps: float
+
+
 @compiled
-def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
-    """Take sample i of the block into the estimate."""
-    stamp_ns = block.imu.stamp_ns[i]
+def sample(block: StanceBlock, i: int) -> Sample:
+    """Return sample i of the block."""
+    imu = block.imu
+    return Sample(
+        imu.stamp_ns[i],
+        row(imu.accel_mps2, i),
+        row(imu.gyro_radps, i),
+        imu.accel_sd_mps2[i],
+        imu.gyro_sd_radps[i],
+        block.stance[i],
+        row(block.rest_rate_radps, i),
+        block.rest_sd_radps[i],
+    )
+
+
+@compiled
+def sample_step(now: Sample, s: Settings, state: FilterState) -> None:
+    """Take a sample into the estimate."""
     if state.aligning:
-        align(stamp_ns, block.imu.accel_mps2[i], block.imu.gyro_radps[i], s, state)
+        align(now.stamp_ns, now.force_mps2, now.rate_radps, s, state)
     else:
-        propagate(block, i, s, state)
-        if block.rest_sd_radps[i] > 0.0:
-            zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
-        if block.stance[i] and zero_velocity(stamp_ns, s, state):
-            stand(stamp_ns, state)
-        since_s = (stamp_ns - state.last_accepted_ns) * 1e-9
+        propagate(now, s, state)
+        if now.rest_sd_radps > 0.0:
+            zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
+        if now.stance and zero_velocity(now.stamp_ns, s, state):
+            stand(now.stamp_ns, state)
+        since_s = (now.stamp_ns - state.last_accepted_ns) * 1e-9
         state.longest_swing_s = max(since_s, state.longest_swing_s)
-    state.last_ns = stamp_ns
-    state.last_force_mps2[:] = block.imu.accel_mps2[i]
-    state.last_rate_radps[:] = block.imu.gyro_radps[i]
-    state.last_gyro_sd_radps = block.imu.gyro_sd_radps[i]
+    state.last_ns = now.stamp_ns
+    state.last_force_mps2[:] = now.force_mps2
+    state.last_rate_radps[:] = now.rate_radps
+    state.last_gyro_sd_radps = now.gyro_sd_radps
     state.samples += 1
 
 
 @compiled
-def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
-    """Move estimate and covariance from the last sample to sample i."""
-    dt_ns = block.imu.stamp_ns[i] - state.last_ns
+def propagate(now: Sample, s: Settings, state: FilterState) -> None:
+    """Move estimate and covariance from the last sample to this one."""
+    dt_ns = now.stamp_ns - state.last_ns
     dt_s = dt_ns * 1e-9
-    if dt_ns <= 0 or dt_ns > GAP_NS or gyro_off(block.imu.gyro_sd_radps[i], state):
+    if dt_ns <= 0 or dt_ns > GAP_NS or gyro_off(now.gyro_sd_radps, state):
         if dt_ns < 0:
             turn_back(dt_ns, state)
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
     state.coasting = False
-    force, rate = block.imu.accel_mps2[i], block.imu.gyro_radps[i]
-    force_before = difference(at_start(state.last_force_mps2, force, s.means), state.accel_bias_mps2)
-    force_after = difference(force, state.accel_bias_mps2)
-    mean_rate = difference(mean(at_start(state.last_rate_radps, rate, s.means), rate), state.gyro_bias_radps)
+    force_before = difference(at_start(state.last_force_mps2, now.force_mps2, s.means), state.accel_bias_mps2)
+    force_after = difference(now.force_mps2, state.accel_bias_mps2)
+    mean_rate = mean(at_start(state.last_rate_radps, now.rate_radps, s.means), now.rate_radps)
+    rate = difference(mean_rate, state.gyro_bias_radps)
     R_before, R_after = advance(
-        state.position_m,
-        state.velocity_mps,
-        state.quat_xyzw,
-        mean_rate,
-        force_before,
-        force_after,
-        dt_s,
-        state.gravity_mps2,
+        state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
     k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
-    q = noise(block.imu.accel_sd_mps2[i], block.imu.gyro_sd_radps[i], dt_s, s.process)
+    q = noise(now.accel_sd_mps2, now.gyro_sd_radps, dt_s, s.process)
     propagate_covariance(state.P, k, q)
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
@@ -71,10 +94,10 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
 
 
 @compiled
-def at_start(before: Vector, now: Vector, means: bool) -> Triple:
+def at_start(before: Vector, now: Triple, means: bool) -> Triple:
     """Return what the sensor felt at the start of the interval: a mean over the interval holds from its start on."""
     if means:
-        return now[0], now[1], now[2]
+        return now
     return before[0], before[1], before[2]
 
 
@@ -113,6 +136,6 @@ def navigate(
             return i, True
         if block.imu.stamp_ns[i] >= stop_ns:
             return i, False
-        sample_step(block, i, s, state)
+        sample_step(sample(block, i), s, state)
         write(out, i, state)
     return block.imu.stamp_ns.shape[0], False

@@ -20,7 +20,7 @@ from pdr_core.maths.kalman import (
     symmetrise,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
-from pdr_core.maths.vector import norm
+from pdr_core.maths.vector import Vector, column, cross, norm
 from pdr_core.records import Floats
 
 HOPELESS_MPS = 2.0  # a standing foot that seems so fast is no matter of noise
@@ -52,19 +52,17 @@ def inject(state: FilterState, error: Floats) -> None:
 
 @compiled
 def relate(change_mps: Floats, M: Floats) -> None:
-    """Replace M, (15, m), by T M: the velocity has changed, and with it the velocity error that an attitude error makes.
+    """Replace M, (15, m), by T M: with the velocity, the velocity error that an attitude error makes has changed.
 
     An attitude error turns the estimated velocity v too: attitude error x v is part of the velocity error. When an
     update moves v by `change_mps`, that part changes by attitude error x `change_mps`. It is of second order, but it
     adds up over thousands of updates: without it each of them shows a little of the yaw, which none can see. (The
     errors of the invariant filter of Barrau and Bonnabel, 2017, have this built in.)
     """
-    c = change_mps
     for j in range(M.shape[1]):
-        x, y, z = M[ATTITUDE, j], M[ATTITUDE + 1, j], M[ATTITUDE + 2, j]
-        M[VELOCITY, j] += y * c[2] - z * c[1]
-        M[VELOCITY + 1, j] += z * c[0] - x * c[2]
-        M[VELOCITY + 2, j] += x * c[1] - y * c[0]
+        added = cross(column(M, ATTITUDE, j), change_mps)
+        for i in range(3):
+            M[VELOCITY + i, j] += added[i]
 
 
 @compiled
@@ -134,7 +132,7 @@ def doubt(stamp_ns: int, state: FilterState) -> None:
 
 
 @compiled
-def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState) -> None:
+def zero_rate(rest_rate_radps: Vector, rest_sd_radps: float, state: FilterState) -> None:
     """Tell the filter the gyro bias that a rest has shown."""
     R = np.eye(3) * rest_sd_radps**2
     y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))

@@ -60,12 +60,17 @@ class ZuptFilter:
         return self._step_taken(int(self.state.last_ns)) if self.state.end_ns[1] != NO_STAMP else []
 
     def answer(self, observation: HeadingObservation) -> None:
-        """Take the answer to a step; the next `run` goes on with what waited for it."""
+        """Take the answer to a step; `resume` goes on with what waited for it."""
         self._answers.take(observation)
 
     def give_up_answers(self) -> None:
-        """Take the missing answers as empty; the next `run` goes on."""
+        """Take the missing answers as empty."""
         self._answers.give_up()
+
+    def resume(self) -> tuple[NavBlock, list[StepEvent]]:
+        """Go on with the samples that waited; return what `run` does."""
+        held, self._held = self._held, None
+        return self.run(held) if held else (empty_nav(0), [])
 
     @property
     def waits(self) -> bool:

@@ -5,10 +5,10 @@ feels one force f at both ends of the interval, so the velocity grows by (mean R
 R_after) / 2, and f is solved from that (the inverse of Gui eq. 4-6).
 
 It moves the position by the trapezium (v_before + v_after) dt / 2 (Gui eq. 7), which misses the true displacement by
-d_i = p_i - p_(i-1) - (v_(i-1) + v_i) dt_i / 2. The misses of exact velocities add up. So the velocity at stamp i carries
-c_i = 2 d_i / (dt_i + dt_(i+1)) more: half of it moves the interval before the stamp and half the one after, together
-by c_i (dt_i + dt_(i+1)) / 2 = d_i. So every miss is made up within the next interval, for any stamps and any time, and
-the position is off by no more than about d_i / 2.
+d_i = p_i - p_(i-1) - (v_(i-1) + v_i) dt_i / 2. The misses of exact velocities add up. So the velocity at stamp i
+carries c_i = 2 d_i / (dt_i + dt_(i+1)) more: half of it moves the interval before the stamp and half the one after,
+together by c_i (dt_i + dt_(i+1)) / 2 = d_i. So every miss is made up within the next interval, for any stamps and any
+time, and the position is off by no more than about d_i / 2.
 """
 
 import numpy as np

@@ -9,13 +9,13 @@ from filter_cases import error_of, injected, judged, random_state, standing
 
 from pdr_core.eskf import ZuptFilter, heading
 from pdr_core.eskf.updates import correct_heading
-from pdr_core.params import DriverParams, Params, changed
+from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import HeadingObservation, HeadingSource, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
 
-WALK = simulated_walk(DriverParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0))
+WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0))
 ASKING = changed(Params(), "filter", heading_feedback=True)
 
 
@@ -53,7 +53,7 @@ def walked(answer, piece=10**9):
                 break
             for step in new:
                 f.answer(answer(step))
-            nav, new = f.run(part(JUDGED, 0, 0))
+            nav, new = f.resume()
     return f, joined(navs), steps
 
 
@@ -72,7 +72,7 @@ def test_samples_wait_at_the_due_stamp_and_nothing_is_lost():
     due = int(np.searchsorted(JUDGED.imu.stamp_ns, step.answer_due_ns))
     assert length(nav) == due < length(JUDGED)
     f.answer(empty(step))
-    more, _ = f.run(part(JUDGED, 0, 0))
+    more, _ = f.resume()
     assert more.stamp_ns[0] == JUDGED.imu.stamp_ns[due]
 
 
@@ -114,7 +114,7 @@ def test_giving_up_goes_on_and_says_so():
     f = asking()
     f.run(JUDGED)
     f.give_up_answers()
-    nav, _ = f.run(part(JUDGED, 0, 0))
+    nav, _ = f.resume()
     assert length(nav)
     assert [(n.kind, n.count) for n in f.notices] == [("heading_unanswered", 1)]
 
@@ -142,7 +142,7 @@ def test_a_wrong_answer_is_named_and_turns_nothing(wrong, kind):
     other = asking()
     other.run(JUDGED)
     other.answer(empty(step))
-    (a, _), (b, _) = f.run(part(JUDGED, 0, 0)), other.run(part(JUDGED, 0, 0))
+    (a, _), (b, _) = f.resume(), other.resume()
     np.testing.assert_array_equal(a.quat_xyzw, b.quat_xyzw)
     assert not np.array_equal(before, f.state.quat_xyzw)
 
@@ -159,10 +159,10 @@ def test_a_clock_that_jumps_back_leaves_nobody_waiting_for_its_future():
     f = asking()
     _, (step,) = f.run(JUDGED)
     f.answer(observed(step, later_ns=50_000_000_000))
-    f.run(part(JUDGED, 0, 0))
+    f.resume()
     for _ in range(2):
         f.give_up_answers()
-        f.run(part(JUDGED, 0, 0))
+        f.resume()
     early = JUDGED._replace(imu=JUDGED.imu._replace(stamp_ns=JUDGED.imu.stamp_ns - 10**13))
     _, steps = f.run(early)
     assert f._answers.next_ns <= max(s.answer_due_ns for s in steps)

@@ -10,12 +10,12 @@ from pdr_core.eskf.output import empty_nav, write
 from pdr_core.eskf.updates import inject
 from pdr_core.intake import Ingestion
 from pdr_core.maths import quaternion
-from pdr_core.params import DriverParams, Params, PlaceParams, changed
+from pdr_core.params import Params, PlaceParams, SimulationParams, changed
 from pdr_core.records import FilterMode, Handover, PoseEstimate, joined, part
 from pdr_core.simulation import simulated_walk
 
 PARAMS = Params()
-WALK = simulated_walk(DriverParams(walk="straight", walk_length_m=12.0), start_ns=10**18)
+WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=12.0), start_ns=10**18)
 JUDGED = judged(Ingestion(PARAMS.intake).run(WALK.imu), WALK.motion.stance)
 STANCE_ENDS = np.flatnonzero(WALK.motion.stance[:-1] & ~WALK.motion.stance[1:])
 
@@ -81,7 +81,7 @@ def test_every_covariance_of_a_walk_is_symmetric_and_positive():
 
 
 def test_two_hours_of_standing_and_walking_keep_the_covariance_positive():
-    walk = simulated_walk(DriverParams(walk="rectangle", walk_length_m=30.0, sample_rate_hz=50.0))
+    walk = simulated_walk(SimulationParams(walk="rectangle", walk_length_m=30.0, sample_rate_hz=50.0))
     n = len(walk.imu.stamp_ns)
     block = judged(Ingestion(PARAMS.intake).run(walk.imu), walk.motion.stance)
     rest = judged(Ingestion(PARAMS.intake).run(part(walk.imu, 0, 100)), np.ones(100, bool))
