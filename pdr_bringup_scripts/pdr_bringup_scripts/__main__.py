@@ -2,7 +2,7 @@
 
 import typer
 
-from pdr_bringup_scripts.commands import demo, params, replay, run, test
+from pdr_bringup_scripts.commands import bench, demo, params, replay, run, test
 
 app = typer.Typer(
     help=__doc__,
@@ -12,7 +12,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
-for module in (demo, test, run, replay, params):
+for module in (demo, test, run, replay, params, bench):
     name = module.__name__.rsplit(".", 1)[-1]
     allowed = {"allow_extra_args": True, "ignore_unknown_options": True} if name == "test" else {}
     app.command(name, context_settings=allowed)(getattr(module, name))
