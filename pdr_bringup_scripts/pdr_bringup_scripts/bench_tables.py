@@ -17,8 +17,12 @@ WIDTH = 120  # where no terminal says its own
 
 def as_json(errors: list[MechanisationError], table_1: list[Table1Result], found: list[Consistency]) -> str:
     """Return everything as one JSON object."""
-    parts = {"mechanisation": errors, "table_1": table_1, "consistency": found}
-    return json.dumps({name: [asdict(row) for row in rows] for name, rows in parts.items()}, indent=2)
+    parts = {
+        "mechanisation": [asdict(row) for row in errors],
+        "table_1": [asdict(row) for row in table_1],
+        "consistency": [asdict(row) for row in found],
+    }
+    return json.dumps(parts, indent=2)
 
 
 def show(errors: list[MechanisationError], table_1: list[Table1Result], found: list[Consistency]) -> None:

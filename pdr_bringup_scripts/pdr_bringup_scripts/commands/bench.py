@@ -25,8 +25,8 @@ def bench(
         table_1 = table_1_results()
     found = []
     for campaign in CAMPAIGNS:
-        with terminal.progress(f"Consistency, {campaign.name}") as tell:
-            found.append(consistency(campaign, seeds, length, lambda done, tell=tell: tell(f"{done} of {seeds} walks")))
+        with terminal.progress(f"Consistency, {campaign.name}, walks of {seeds}") as tell:
+            found.append(consistency(campaign, seeds, length, tell))
     if json:
         print(as_json(errors, table_1, found))
     else:

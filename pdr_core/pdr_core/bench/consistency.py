@@ -88,11 +88,10 @@ class Track(NamedTuple):
     nis: Floats  # (n,)
 
 
-def consistency(
-    campaign: Campaign, runs: int, length_m: float, seen: Callable[[int], object] = lambda done: None
-) -> Consistency:
+def consistency(campaign: Campaign, runs: int, length_m: float, seen: Callable[[str], object] = str) -> Consistency:
     """Run walks of about `length_m` with seeds from FIRST_SEED on; `seen` is told how many are done."""
     where, squares, end_errors, found = ground(length_m), [], [], []
+    distance_m = path_length_m(where.motion.position_m)
     for done in range(runs):
         walk = believed_walk(where, told().filter, campaign.trembles, FIRST_SEED + done)
         block = judged(campaign, where, walk.imu)
@@ -102,11 +101,10 @@ def consistency(
             percent(closure_2d_m(track.position_m[-1], walk.position_m[-1]), path_length_m(walk.position_m))
         )
         found.append(block.stance[where.motion.stance].mean())
-        seen(done + 1)
+        seen(str(done + 1))
     freedoms = {name: axes.stop - axes.start for name, axes in PARTS.items()} | {UPDATE: 3}
     spreads = [spread(name, n, np.array([one[name] for one in squares])) for name, n in freedoms.items()]
     median, high = np.percentile(end_errors, [50.0, 95.0])
-    distance_m = path_length_m(where.motion.position_m)
     return Consistency(campaign.name, runs, distance_m, spreads, float(median), float(high), float(np.mean(found)))
 
 
