@@ -131,9 +131,7 @@ class FilterParams:
     """The error-state Kalman filter."""
 
     samples: str = parameter(
-        "points",
-        "a sample is the value at its stamp, or the mean over the interval since the one before",
-        choices=("points", "means"),
+        "points", "values at the stamps, or means since the sample before", choices=("points", "means")
     )
     alignment_s: float = parameter(
         0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"

@@ -20,7 +20,7 @@ from pdr_core.maths.kalman import (
     symmetrise,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
-from pdr_core.maths.vector import Vector, column, cross, norm
+from pdr_core.maths.vector import Vector, norm
 from pdr_core.records import Floats
 
 HOPELESS_MPS = 2.0  # a standing foot that seems so fast is no matter of noise
@@ -52,17 +52,16 @@ def inject(state: FilterState, error: Floats) -> None:
 
 @compiled
 def relate(change_mps: Floats, M: Floats) -> None:
-    """Replace M, (15, m), by T M: with the velocity, the velocity error that an attitude error makes has changed.
+    """Replace M, (15, m), by T M: with the velocity, the velocity error that a yaw error makes has changed.
 
-    An attitude error turns the estimated velocity v too: attitude error x v is part of the velocity error. When an
-    update moves v by `change_mps`, that part changes by attitude error x `change_mps`. It is of second order, but it
-    adds up over thousands of updates: without it each of them shows a little of the yaw, which none can see. (The
-    errors of the invariant filter of Barrau and Bonnabel, 2017, have this built in.)
+    A yaw error turns the estimated velocity v too: yaw error times z x v is part of the velocity error. When an update
+    moves v by `change_mps`, that part changes by yaw error times z x `change_mps`. It is of second order, but it adds
+    up over thousands of updates: without it each of them shows a little of the yaw, which none can see. (The errors of
+    the invariant filter of Barrau and Bonnabel, 2017, have this built in, for all three axes.)
     """
     for j in range(M.shape[1]):
-        added = cross(column(M, ATTITUDE, j), change_mps)
-        for i in range(3):
-            M[VELOCITY + i, j] += added[i]
+        M[VELOCITY, j] -= M[ATTITUDE + 2, j] * change_mps[1]
+        M[VELOCITY + 1, j] += M[ATTITUDE + 2, j] * change_mps[0]
 
 
 @compiled
