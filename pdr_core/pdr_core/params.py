@@ -130,6 +130,9 @@ class StanceParams:
 class FilterParams:
     """The error-state Kalman filter."""
 
+    samples: str = parameter(
+        "points", "values at the stamps, or means since the sample before", choices=("points", "means")
+    )
     alignment_s: float = parameter(
         0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"
     )
@@ -171,7 +174,11 @@ class FilterParams:
         1e-6, "random walk of the gyro bias", unit="rad/s/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 15"
     )
     bias_correlation_s: float = parameter(
-        3600.0, "correlation time of the biases, 1/beta", unit="s", bounds=(1.0, 1e9), source="Gui eq. 15-16"
+        1e7,
+        "correlation time of the biases, 1/beta: a bias that a rest has shown is kept",
+        unit="s",
+        bounds=(1.0, 1e9),
+        source="about 2 (initial deviation / walk)^2: with it Gui eq. 15-16 keep the initial variance",
     )
     initial_position_sd_m: float = parameter(0.001, "at the start", unit="m", bounds=(0.0, 1e3))
     initial_velocity_sd_mps: float = parameter(0.01, "at the start", unit="m/s", bounds=(0.0, 10.0))

@@ -18,6 +18,7 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         process=ProcessNoise(
             p.accel_bias_walk, p.gyro_bias_walk, p.bias_correlation_s, p.gap_speed_mps, p.gap_rate_radps
         ),
+        means=p.samples == "means",
         gravity_mps2=gravity_mps2(np.radians(place.latitude_deg), place.height_m),
         gravity_from_rest=p.gravity_source == "rest",
         alignment_ns=round(p.alignment_s * NANOSECONDS),

@@ -11,7 +11,7 @@ from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import stance_is_over, stand
 from pdr_core.eskf.updates import zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Triple, difference, mean, row
+from pdr_core.maths.vector import Triple, Vector, difference, mean, row
 from pdr_core.records import NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance
 
@@ -78,9 +78,10 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
     state.coasting = False
-    force_before = difference(state.last_force_mps2, state.accel_bias_mps2)
+    force_before = difference(at_start(state.last_force_mps2, now.force_mps2, s.means), state.accel_bias_mps2)
     force_after = difference(now.force_mps2, state.accel_bias_mps2)
-    rate = difference(mean(state.last_rate_radps, now.rate_radps), state.gyro_bias_radps)
+    mean_rate = mean(at_start(state.last_rate_radps, now.rate_radps, s.means), now.rate_radps)
+    rate = difference(mean_rate, state.gyro_bias_radps)
     R_before, R_after = advance(
         state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
@@ -90,6 +91,14 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
+
+
+@compiled
+def at_start(before: Vector, now: Triple, means: bool) -> Triple:
+    """Return what the sensor felt at the start of the interval: a mean over the interval holds from its start on."""
+    if means:
+        return now
+    return before[0], before[1], before[2]
 
 
 @compiled

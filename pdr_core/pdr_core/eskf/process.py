@@ -17,6 +17,7 @@ import numpy as np
 
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.kalman import symmetrise
 from pdr_core.maths.vector import Matrix, Rows, Triple, Vector, column, cross, difference, mean, rotated, scaled
 from pdr_core.records import Floats
 
@@ -75,10 +76,7 @@ def propagate_covariance(P: Floats, k: Link, q: Floats) -> None:
     carry(k, P)
     for i in range(SIZE):
         P[i, i] += q[i]
-        for j in range(i):
-            mean = 0.5 * (P[i, j] + P[j, i])
-            P[i, j] = mean
-            P[j, i] = mean
+    symmetrise(P)
 
 
 @compiled

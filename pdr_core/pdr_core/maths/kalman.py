@@ -84,3 +84,13 @@ def correct_cross(C: Floats, K: Floats, H: Floats) -> None:
         for i in range(C.shape[0]):
             for j in range(C.shape[1]):
                 C[i, j] -= K[i, m] * HC[m, j]
+
+
+@compiled
+def symmetrise(P: Floats) -> None:
+    """Make a matrix that rounding has made lopsided exactly symmetric, in place."""
+    for i in range(P.shape[0]):
+        for j in range(i):
+            mean = 0.5 * (P[i, j] + P[j, i])
+            P[i, j] = mean
+            P[j, i] = mean

@@ -15,10 +15,13 @@ def interval(rng, dt):
     return rng.uniform(-8, 8, 3), rng.uniform(-30, 30, 3), rng.uniform(-30, 30, 3), dt
 
 
-@given(SEEDS, st.sampled_from([0.001, 0.0025, 0.005, 0.01]))
-def test_the_transition_is_the_derivative_of_the_mechanisation(seed, dt):
+@given(SEEDS, st.sampled_from([0.001, 0.0025, 0.005, 0.01]), st.booleans())
+def test_the_transition_is_the_derivative_of_the_mechanisation(seed, dt, means):
     rng = np.random.default_rng(seed)
     state, measured = random_state(rng), interval(rng, dt)
+    if means:  # one force at both ends
+        rate, _, force, dt = measured
+        measured = rate, force, force, dt
     after, k = moved(state, *measured)
     F, steps = transition(k), np.repeat([1e-4, 1e-4, 1e-5, 1e-4, 1e-4], 3)
     for column, step in enumerate(steps):

@@ -1,0 +1,70 @@
+"""What `pdr bench` has measured, as tables or as JSON."""
+
+import json
+import sys
+from dataclasses import asdict
+
+from rich.box import SIMPLE
+from rich.console import Console
+from rich.table import Table
+
+from pdr_core.bench.consistency import Consistency
+from pdr_core.bench.mechanisation import MechanisationError
+from pdr_core.bench.table_1 import Table1Result
+
+WIDTH = 120  # where no terminal says its own
+
+
+def as_json(errors: list[MechanisationError], table_1: list[Table1Result], found: list[Consistency]) -> str:
+    """Return everything as one JSON object."""
+    parts = {
+        "mechanisation": [asdict(row) for row in errors],
+        "table_1": [asdict(row) for row in table_1],
+        "consistency": [asdict(row) for row in found],
+    }
+    return json.dumps(parts, indent=2)
+
+
+def show(errors: list[MechanisationError], table_1: list[Table1Result], found: list[Consistency]) -> None:
+    """Print the tables: with colours on a terminal, as plain text elsewhere."""
+    console = Console(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
+    for one in (mechanisation_table(errors), table_1_table(table_1), *map(consistency_table, found)):
+        console.print(one)
+
+
+def table(title: str, *heads: str) -> Table:
+    """Return an empty table, the numbers to the right."""
+    empty = Table(title=title, box=SIMPLE, title_justify="left")
+    for i, head in enumerate(heads):
+        empty.add_column(head, justify="right" if i else "left", no_wrap=True)
+    return empty
+
+
+def mechanisation_table(errors: list[MechanisationError]) -> Table:
+    """Return the error of inertia alone, by rate."""
+    out = table("Mechanisation alone, ideal point samples", "motion", "Hz", "walked s", "m", "mm", "mm/s", "mrad")
+    for e in errors:
+        numbers = (e.rate_hz, e.walked_s, e.distance_m)
+        largest = (1e3 * e.position_m, 1e3 * e.velocity_mps, 1e3 * e.attitude_rad)
+        out.add_row(e.motion, *(f"{x:.0f}" for x in numbers), *(f"{x:.3g}" for x in largest))
+    return out
+
+
+def table_1_table(results: list[Table1Result]) -> Table:
+    """Return the walks with the sensors of Gui's Table 1."""
+    title = "Gui Table 1: his walk, the whole pipeline"
+    out = table(title, "sensor", "suite told of it", "m", "end error %", "ATE2 m", "strides", "true strides")
+    for r in results:
+        errors = (f"{r.distance_m:.1f}", f"{r.end_error_percent:.3g}", f"{r.ate2_m:.3g}")
+        out.add_row(r.sensor_model, "yes" if r.told else "no", *errors, str(r.strides), str(r.true_strides))
+    return out
+
+
+def consistency_table(c: Consistency) -> Table:
+    """Return the normalised squares of one campaign; the shares are those of the stance epochs."""
+    end = f"end error: median {c.end_error_median_percent:.2f} %, 95th percentile {c.end_error_95_percent:.2f} %"
+    title = f"Consistency, {c.name}: {c.runs} walks of {c.distance_m:.1f} m; {end}; stance found {c.stance_found:.0%}"
+    out = table(title, "", "freedom", "mean", "within 95 % bounds", "below: too careful", "above: too sure")
+    for s in c.spreads:
+        out.add_row(s.name, str(s.freedom), f"{s.mean:.2f}", *(f"{x:.1%}" for x in (s.inside, s.below, s.above)))
+    return out
