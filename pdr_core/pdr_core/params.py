@@ -37,11 +37,35 @@ class IntakeParams:
         bounds=(0.0, 10.0),
         source="measured on real walks",
     )
-    saturated_gyro_sd_radps: float = parameter(
-        1.0, "what a saturated gyro may be off by", unit="rad/s", bounds=(0.0, 50.0)
+    gyro_motion_noise: float = parameter(
+        0.0005, "noise density of the gyro per rate", unit="1/sqrt(Hz)", bounds=(0.0, 1.0), source="measured on real walks"
     )
-    saturated_accel_sd_mps2: float = parameter(
-        20.0, "what a saturated accelerometer may be off by", unit="m/s^2", bounds=(0.0, 500.0)
+    accel_motion_noise: float = parameter(
+        0.003,
+        "noise density of the accelerometer per deviation from gravity",
+        unit="1/sqrt(Hz)",
+        bounds=(0.0, 1.0),
+        source="measured on real walks",
+    )
+    saturated_gyro_noise_density: float = parameter(
+        0.03,
+        "noise density where the gyro saturates",
+        unit="rad/s/sqrt(Hz)",
+        bounds=(0.0, 10.0),
+        source="measured on real walks",
+    )
+    saturated_accel_noise_density: float = parameter(
+        1.4, "noise density where the accelerometer saturates", unit="m/s^2/sqrt(Hz)", bounds=(0.0, 100.0)
+    )
+    clip_smallest_radps: float = parameter(
+        4.0,
+        "no gyro clips below this rate; a large number switches the repair of clipped rates off",
+        unit="rad/s",
+        bounds=(0.1, 1e6),
+        source="below 250 deg/s, the smallest range sold",
+    )
+    clip_longest_s: float = parameter(
+        0.1, "a sample that may be clipped is held back for at most so long", unit="s", bounds=(0.0, 1.0)
     )
     restart_s: float = parameter(
         1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
@@ -58,7 +82,7 @@ class PlaceParams:
 
 @dataclass(frozen=True)
 class StanceParams:
-    """Stance detection: GLRT, time threshold, gait classification, soft rest test."""
+    """Stance detection: GLRT, relative threshold, soft rest test."""
 
     window_s: float = parameter(
         0.035, "length of the centred window of the GLRT", unit="s", bounds=(0.0, 1.0), source="Gui eq. 8, W"
@@ -69,28 +93,38 @@ class StanceParams:
     gyro_sd_radps: float = parameter(
         0.017, "gyro noise in the GLRT", unit="rad/s", bounds=(1e-5, 1.0), source="Gui eq. 8, sigma_omega"
     )
-    threshold: float = parameter(
-        2000.0, "a foot stands where the statistic is at most this", bounds=(1e-3, 1e9), source="Gui section 3, T_d"
-    )
-    toe_off_ratio: float = parameter(
-        4.0, "a toe-off is a statistic over this many thresholds", bounds=(1.0, 1e6), source="Gui section 3"
-    )
-    stance_min_s: float = parameter(
-        0.05, "time threshold: a stance lasts at least so long", unit="s", bounds=(0.0, 1.0), source="Gui section 3"
-    )
-    dip_max_s: float = parameter(
-        0.15,
-        "what begins within swing_min_s of the last stance must last longer",
+    memory_s: float = parameter(
+        0.9,
+        "the threshold follows the largest statistic of so much time: longer than a stance",
         unit="s",
+        bounds=(0.05, 60.0),
+        source="measured on real walks",
+    )
+    relative_share: float = parameter(
+        0.022,
+        "a foot stands where the statistic is at most this share of the largest; 0: threshold_min alone counts",
         bounds=(0.0, 1.0),
-        source="Gui figure 3",
+        source="measured on real walks: 1/45",
     )
-    swing_min_s: float = parameter(
-        0.55,
-        "so soon after the last stance, a short dip is mid-swing",
-        unit="s",
-        bounds=(0.0, 2.0),
-        source="Gui section 3",
+    threshold_min: float = parameter(
+        30.0, "the threshold is at least this", bounds=(1e-3, 1e9), source="measured on real walks"
+    )
+    threshold_max: float = parameter(
+        1e5, "the threshold is at most this, unless threshold_min is larger", bounds=(1e-3, 1e12)
+    )
+    quiet_max: float = parameter(
+        300.0, "what is more than this is no noise of a resting sensor; 0: noise does not raise the threshold",
+        bounds=(0.0, 1e6),
+    )
+    still_sd_mps: float = parameter(
+        0.005, "how still a standing foot is at best", unit="m/s", bounds=(1e-5, 10.0), source="measured on real walks"
+    )
+    sd_per_root_mps: float = parameter(
+        0.0022,
+        "how still it is, per square root of the statistic",
+        unit="m/s",
+        bounds=(0.0, 10.0),
+        source="measured on real walks",
     )
     rest_moving_radps: float = parameter(
         0.5,
@@ -132,16 +166,36 @@ class FilterParams:
         "rest", "gravity from the specific force of the first rest or from the place", choices=("rest", "place")
     )
     zero_velocity_sd_mps: float = parameter(
-        0.02, "how still a standing foot is", unit="m/s", bounds=(1e-5, 10.0), source="Gui eq. 22, Zhou R_v"
+        0.02,
+        "how still a standing foot is, where the detector does not say",
+        unit="m/s",
+        bounds=(1e-5, 10.0),
+        source="Gui eq. 22, Zhou R_v",
+    )
+    contact_height_m: float = parameter(
+        0.08,
+        "height of the sensor above the point about which a standing foot rolls; 0: it does not roll",
+        unit="m",
+        bounds=(0.0, 1.0),
+        source="measured on real walks",
+    )
+    huber: float = parameter(
+        5.0,
+        "normalised innovation squared up to which a zero-velocity update has its full weight",
+        bounds=(0.1, 1e9),
+        source="Huber 1964; measured on real walks",
     )
     gate: float = parameter(
-        16.3,
-        "normalised innovation squared that a zero-velocity update may have",
-        bounds=(1.0, 1e9),
-        source="chi-square, 3 degrees of freedom, 99.9 %",
+        30.0, "normalised innovation squared beyond which a stance contradicts the estimate", bounds=(1.0, 1e9)
+    )
+    gate_speed_mps: float = parameter(
+        2.0,
+        "a contradicting stance is first taken for a dip in mid-swing where the foot seems faster than this",
+        unit="m/s",
+        bounds=(0.0, 100.0),
     )
     gate_release_s: float = parameter(
-        0.1, "rejections that go on for longer are taken after all, with less weight", unit="s", bounds=(0.0, 10.0)
+        0.1, "after so long in contradicting stances it is the estimate that is doubted", unit="s", bounds=(0.0, 10.0)
     )
     step_merge_s: float = parameter(
         0.3,

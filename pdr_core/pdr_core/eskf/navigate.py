@@ -1,6 +1,6 @@
 """The filter's loop: align, propagate, update, one sample after the other. The only text of it, live and offline."""
 
-from pdr_core.conventions import GAP_NS, NO_STAMP
+from pdr_core.conventions import GAP_NS
 from pdr_core.eskf.align import align
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
@@ -26,8 +26,10 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
         propagate(block, i, s, state)
         if block.rest_sd_radps[i] > 0.0:
             zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
-        if block.stance[i] and zero_velocity(stamp_ns, s, state):
-            stand(stamp_ns, state)
+        if block.stance[i]:
+            sd_mps = block.zero_velocity_sd_mps[i] if block.zero_velocity_sd_mps[i] > 0.0 else s.zero_velocity_sd_mps
+            if zero_velocity(stamp_ns, block.imu.gyro_radps[i], sd_mps, s, state):
+                stand(stamp_ns, state)
         since_s = (stamp_ns - state.last_accepted_ns) * 1e-9
         state.longest_swing_s = max(since_s, state.longest_swing_s)
     state.last_ns = stamp_ns
@@ -72,7 +74,7 @@ def gyro_off(gyro_sd_radps: float, state: FilterState) -> bool:
 def turn_back(dt_ns: int, state: FilterState) -> None:
     """Follow a clock that has jumped back: stamps of the time before would lie in the future."""
     state.last_accepted_ns += dt_ns
-    state.rejecting_since_ns = NO_STAMP
+    state.contradicted_s = 0.0
 
 
 @compiled

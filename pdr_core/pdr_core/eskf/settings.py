@@ -16,6 +16,9 @@ class Settings(NamedTuple):
     initial_yaw_rad: float
     initial_sd: Floats  # (15,)
     zero_velocity_sd_mps: float
+    contact_height_m: float
+    huber: float
     gate: float
-    release_ns: int
+    gate_speed_mps: float
+    release_s: float
     merge_ns: int

@@ -34,7 +34,7 @@ ALIGNMENT = [                                 # the first moments, in which grav
 ]
 GATE = [
     ("last_accepted_ns", np.int64),           # of the zero-velocity updates
-    ("rejecting_since_ns", np.int64),         # NO_STAMP: not rejecting
+    ("contradicted_s", np.float64),           # time in stances that contradict the estimate, since one agreed
 ]
 # The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
@@ -52,8 +52,9 @@ STEPS = [
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),
     ("accepted", np.int64),                   # zero-velocity updates
-    ("rejected", np.int64),                   # by the innovation gate
-    ("released", np.int64),                   # accepted beyond the gate after a row of rejections
+    ("agreed", np.int64),                     # of them, those that had their full weight
+    ("rejected", np.int64),                   # as dips in mid-swing
+    ("doubted", np.int64),                    # how often stances that went on contradicting made it doubt the estimate
     ("gaps", np.int64),
     ("longest_swing_s", np.float64),          # longest time without a zero-velocity update
     ("normalised_innovation", np.float64),    # of the last zero-velocity update
@@ -68,7 +69,7 @@ def fresh_state() -> FilterState:
     state = np.zeros(1, LAYOUT).view(np.recarray)[0]
     state.quat_xyzw[3] = 1.0
     state.aligning = True
-    for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns", "rejecting_since_ns"):
+    for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns"):
         state[stamp] = NO_STAMP
     state.end_ns[:] = NO_STAMP
     return state

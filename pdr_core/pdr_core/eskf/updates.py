@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NO_STAMP
+from pdr_core.conventions import GAP_NS
 from pdr_core.eskf import zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.settings import Settings
@@ -14,15 +14,13 @@ from pdr_core.maths.kalman import (
     correct_cross,
     estimated_error,
     gain,
-    inflated,
     innovation,
     normalised_squared,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
-from pdr_core.maths.vector import norm
+from pdr_core.maths.vector import difference, norm
 from pdr_core.records import Floats
 
-HOPELESS_MPS = 2.0  # a standing foot that seems so fast is no matter of noise
 SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a shock
 
 
@@ -47,30 +45,35 @@ def inject(state: FilterState, error: Floats) -> None:
 
 
 @compiled
-def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
-    """Tell the filter that the foot stands; return whether it believed it.
+def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings, state: FilterState) -> bool:
+    """Tell the filter that the foot stands, at a measured rate (3,) and with a velocity noise; return if it believed.
 
-    An innovation beyond the gate is rejected: a false stance would stop a swinging foot. But where the rejections go
-    on for longer than the release time, it is the estimate that is wrong. Then the update is taken with a noise that
-    brings it to the gate; and where even then, after the same time, a standing foot seems faster than a walker, the
-    covariance is raised until it agrees with the stance. So nothing locks the filter out.
+    A verdict may be wrong, and so may the estimate. An innovation beyond `huber` counts less the larger it is (Huber's
+    weight): R grows by sd^2 (d2 / huber - 1). Beyond the gate it contradicts the estimate. A fast foot that seems to
+    stand may be a dip in mid-swing, and is rejected for a short while. A contradiction that goes on for longer than
+    the release time proves the estimate wrong: its covariance is raised until it agrees with the stance. So nothing
+    locks the filter out.
     """
-    y = zero_velocity_innovation(s, state)
+    rolling = zupt.rolling_velocity(state.quat_xyzw, difference(rate_radps, state.gyro_bias_radps), s.contact_height_m)
+    residual = zupt.residual(rolling, state.velocity_mps)
+    y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
     d2 = normalised_squared(y)
     state.normalised_innovation = d2
     if d2 > s.gate:
-        since_ns = rejecting_for_ns(stamp_ns, state)
-        if since_ns < s.release_ns:
+        state.contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
+        if state.contradicted_s > s.release_s:
+            doubt(stamp_ns, norm(residual), state)
+            y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
+            d2 = normalised_squared(y)
+        elif norm(residual) > s.gate_speed_mps:
             state.rejected += 1
             return False
-        state.released += 1
-        if since_ns < 2 * s.release_ns or norm(state.velocity_mps) < HOPELESS_MPS:
-            y = inflated(y, d2 / s.gate)
-        else:
-            doubt(stamp_ns, state)
-            y = zero_velocity_innovation(s, state)
     else:
-        state.rejecting_since_ns = NO_STAMP
+        state.contradicted_s = 0.0
+    if d2 > s.huber:
+        y = innovation(state.P, zupt.H, np.eye(3) * (sd_mps**2 * d2 / s.huber), residual)
+    else:
+        state.agreed += 1
     apply(y, zupt.H, zupt.without_gyro_bias(gain(y)), state)
     state.last_accepted_ns = stamp_ns
     state.accepted += 1
@@ -78,24 +81,9 @@ def zero_velocity(stamp_ns: int, s: Settings, state: FilterState) -> bool:
 
 
 @compiled
-def zero_velocity_innovation(s: Settings, state: FilterState) -> Innovation:
-    """Return what a stance says beyond the estimate."""
-    R = np.eye(3) * s.zero_velocity_sd_mps**2
-    return innovation(state.P, zupt.H, R, zupt.residual(state.velocity_mps))
-
-
-@compiled
-def rejecting_for_ns(stamp_ns: int, state: FilterState) -> int:
-    """Return for how long [ns] stances have been beyond the gate, this one included."""
-    if state.rejecting_since_ns == NO_STAMP:
-        state.rejecting_since_ns = stamp_ns
-    return stamp_ns - state.rejecting_since_ns
-
-
-@compiled
-def doubt(stamp_ns: int, state: FilterState) -> None:
+def doubt(stamp_ns: int, speed_mps: float, state: FilterState) -> None:
     """Admit that the velocity is wrong by as much as it shows, and that a wrong tilt may have made it so."""
-    speed_mps = norm(state.velocity_mps)
+    state.doubted += 1
     swing_s = max(SHORTEST_SWING_S, (stamp_ns - state.last_accepted_ns) * 1e-9)
     tilt_rad = min(np.pi, speed_mps / (state.gravity_mps2 * swing_s))
     for i in range(3):

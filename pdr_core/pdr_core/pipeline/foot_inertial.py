@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
-from pdr_core.records import ImuBlock, NavBlock, Notice, StanceBlock, StepEvent
+from pdr_core.records import ImuBlock, NavBlock, Notice, StanceBlock, StepEvent, joined
 from pdr_core.stance import StanceDetection
 
 
@@ -35,7 +35,7 @@ class FootInertial:
 
     def finish(self) -> FootOutput:
         """Give out what still waits for later samples: there will be none."""
-        judged = self._stance.finish()
+        judged = joined([self._stance.run(self._intake.finish()), self._stance.finish()])
         nav, steps = self._filter.run(judged)
         return FootOutput(judged, nav, steps + self._filter.finish())
 
