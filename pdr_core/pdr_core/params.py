@@ -152,6 +152,10 @@ class StanceParams:
     rest_turn_rad: float = parameter(
         5.2e-4, "a resting foot may turn steadily by this", unit="rad", bounds=(0.0, 1.0), source="0.03 deg"
     )
+    rest_drift_radps2: float = parameter(
+        1.7e-4, "a bias may drift so fast: late windows of a rest count more", unit="rad/s^2", bounds=(0.0, 1.0),
+        source="0.01 deg/s a second",
+    )
 
 
 @dataclass(frozen=True)

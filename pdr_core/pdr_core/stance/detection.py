@@ -38,6 +38,7 @@ class StanceDetection:
             nanoseconds(params.rest_later_s),
             params.rest_floor_radps,
             params.rest_turn_rad,
+            params.rest_drift_radps2,
         )
         self._rest = rest.fresh_state()
         self._forget()
