@@ -208,6 +208,13 @@ class FilterParams:
         bounds=(0.0, 5.0),
         source="measured on real walks",
     )
+    step_min_m: float = parameter(
+        0.05,
+        "a foot that never is so far from where it stood takes no step",
+        unit="m",
+        bounds=(0.0, 1.0),
+        source="half of the shortest shuffle among real walks",
+    )
     gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
     gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))
     accel_bias_walk: float = parameter(

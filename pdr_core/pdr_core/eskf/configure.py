@@ -30,4 +30,5 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         gate_speed_mps=p.gate_speed_mps,
         release_s=p.gate_release_s,
         merge_ns=round(p.step_merge_s * NANOSECONDS),
+        step_min_m=p.step_min_m,
     )

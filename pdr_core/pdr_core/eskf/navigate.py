@@ -6,7 +6,7 @@ from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
-from pdr_core.eskf.step_events import stance_is_over, stand
+from pdr_core.eskf.step_events import roam, stance_is_over, stand
 from pdr_core.eskf.updates import zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import difference, mean
@@ -26,6 +26,7 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
         propagate(block, i, s, state)
         if block.rest_sd_radps[i] > 0.0:
             zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
+        roam(state)
         if block.stance[i]:
             sd_mps = block.zero_velocity_sd_mps[i] if block.zero_velocity_sd_mps[i] > 0.0 else s.zero_velocity_sd_mps
             if zero_velocity(stamp_ns, block.imu.gyro_radps[i], sd_mps, s, state):

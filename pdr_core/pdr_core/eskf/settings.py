@@ -22,3 +22,4 @@ class Settings(NamedTuple):
     gate_speed_mps: float
     release_s: float
     merge_ns: int
+    step_min_m: float

@@ -43,6 +43,8 @@ STEPS = [
     ("step_number", np.int64),                # of the next step event
     ("end_ns", np.int64, 2),
     ("end_position_m", np.float64, (2, 3)),
+    ("away_m", np.float64),                   # farthest distance from where the foot stood last
+    ("excursion_m", np.float64),              # the farthest between the two ends
     ("end_covariance", np.float64, (2, 3, 3)),
     ("end_yaw_rad", np.float64, 2),
     ("end_yaw_sd_rad", np.float64, 2),

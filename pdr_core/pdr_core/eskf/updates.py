@@ -46,7 +46,7 @@ def inject(state: FilterState, error: Floats) -> None:
 
 @compiled
 def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings, state: FilterState) -> bool:
-    """Tell the filter that the foot stands, at a measured rate (3,) and with a velocity noise; return if it believed.
+    """Tell the filter that the foot stands, at a measured rate (3,) and with a velocity noise; return if they agree.
 
     A verdict may be wrong, and so may the estimate. An innovation beyond `huber` counts less the larger it is (Huber's
     weight): R grows by sd^2 (d2 / huber - 1). Beyond the gate it contradicts the estimate. A fast foot that seems to
@@ -59,7 +59,10 @@ def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings,
     y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
     d2 = normalised_squared(y)
     state.normalised_innovation = d2
-    if d2 > s.gate:
+    agrees = d2 <= s.gate
+    if agrees:
+        state.contradicted_s = 0.0
+    else:
         state.contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
         if state.contradicted_s > s.release_s:
             doubt(stamp_ns, norm(residual), state)
@@ -68,8 +71,6 @@ def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings,
         elif norm(residual) > s.gate_speed_mps:
             state.rejected += 1
             return False
-    else:
-        state.contradicted_s = 0.0
     if d2 > s.huber:
         y = innovation(state.P, zupt.H, np.eye(3) * (sd_mps**2 * d2 / s.huber), residual)
     else:
@@ -77,7 +78,7 @@ def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings,
     apply(y, zupt.H, zupt.without_gyro_bias(gain(y)), state)
     state.last_accepted_ns = stamp_ns
     state.accepted += 1
-    return True
+    return agrees
 
 
 @compiled
