@@ -2,12 +2,13 @@
 
 from pdr_core.conventions import GAP_NS
 from pdr_core.eskf.align import align
+from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
-from pdr_core.eskf.updates import zero_rate, zero_velocity
+from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import difference, mean
 from pdr_core.records import NavBlock, StanceBlock
@@ -28,9 +29,7 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
             zero_rate(block.rest_rate_radps[i], block.rest_sd_radps[i], state)
         roam(state)
         if block.stance[i]:
-            sd_mps = block.zero_velocity_sd_mps[i] if block.zero_velocity_sd_mps[i] > 0.0 else s.zero_velocity_sd_mps
-            if zero_velocity(stamp_ns, block.imu.gyro_radps[i], sd_mps, s, state):
-                stand(stamp_ns, state)
+            stand_still(block, i, s, state)
         since_s = (stamp_ns - state.last_accepted_ns) * 1e-9
         state.longest_swing_s = max(since_s, state.longest_swing_s)
     state.last_ns = stamp_ns
@@ -38,6 +37,18 @@ def sample_step(block: StanceBlock, i: int, s: Settings, state: FilterState) -> 
     state.last_rate_radps[:] = block.imu.gyro_radps[i]
     state.last_gyro_sd_radps = block.imu.gyro_sd_radps[i]
     state.samples += 1
+
+
+@compiled
+def stand_still(block: StanceBlock, i: int, s: Settings, state: FilterState) -> None:
+    """Take the verdict that the foot stands into the estimate."""
+    stamp_ns, sd_mps = block.imu.stamp_ns[i], block.zero_velocity_sd_mps[i]
+    sd_mps = sd_mps if sd_mps > 0.0 else s.zero_velocity_sd_mps
+    if tilt_is_lost(state.P):
+        level(block.imu.accel_mps2[i], sd_mps, state)
+    state.adrift = False
+    if zero_velocity(stamp_ns, block.imu.gyro_radps[i], sd_mps, s, state):
+        stand(stamp_ns, state)
 
 
 @compiled
@@ -54,6 +65,7 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     force_before = difference(state.last_force_mps2, state.accel_bias_mps2)
     force_after = difference(block.imu.accel_mps2[i], state.accel_bias_mps2)
     rate = difference(mean(state.last_rate_radps, block.imu.gyro_radps[i]), state.gyro_bias_radps)
+    held = state.position_m[0], state.position_m[1], state.position_m[2]
     R_before, R_after = advance(
         state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
@@ -63,6 +75,9 @@ def propagate(block: StanceBlock, i: int, s: Settings, state: FilterState) -> No
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
+    if state.adrift:
+        state.velocity_mps[:] = 0.0
+        state.position_m[:] = held
 
 
 @compiled
@@ -80,7 +95,8 @@ def turn_back(dt_ns: int, state: FilterState) -> None:
 
 @compiled
 def coast(dt_s: float, s: Settings, state: FilterState) -> None:
-    """Cross a gap: hold the position, forget the velocity, trust everything less."""
+    """Cross a gap: forget the velocity, trust everything less, and hold the position until the foot stands again."""
+    state.adrift = True
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting

@@ -24,6 +24,7 @@ LAST_SAMPLE = [
     ("last_rate_radps", np.float64, 3),
     ("last_gyro_sd_radps", np.float64),
     ("coasting", np.bool_),                   # the last interval was not integrated
+    ("adrift", np.bool_),                     # no stance since then: velocity and tilt are unknown
 ]
 ALIGNMENT = [                                 # the first moments, in which gravity alone gives the attitude
     ("aligning", np.bool_),

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import zaru, zupt
+from pdr_core.eskf import gravity, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
@@ -99,3 +99,12 @@ def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState)
     R = np.eye(3) * rest_sd_radps**2
     y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))
     apply(y, zaru.H, gain(y), state)
+
+
+@compiled
+def level(force_mps2: Floats, sd_mps: float, state: FilterState) -> None:
+    """Tell the filter where up is; the foot stands, with a velocity noise."""
+    force = difference(force_mps2, state.accel_bias_mps2)
+    R = gravity.noise(sd_mps, state.gravity_mps2)
+    y = innovation(state.P, gravity.H, R, gravity.residual(state.quat_xyzw, force))
+    apply(y, gravity.H, gain(y), state)
