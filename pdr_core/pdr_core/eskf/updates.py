@@ -5,6 +5,7 @@ import numpy as np
 from pdr_core.conventions import GAP_NS
 from pdr_core.eskf import gravity, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
+from pdr_core.eskf.known_yaw import given_yaw
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
@@ -56,8 +57,8 @@ def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings,
     """
     rolling = zupt.rolling_velocity(state.quat_xyzw, difference(rate_radps, state.gyro_bias_radps), s.contact_height_m)
     residual = zupt.residual(rolling, state.velocity_mps)
-    y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
-    d2 = normalised_squared(y)
+    y, given = weighed(residual, sd_mps, state)
+    d2 = normalised_squared(given)
     state.normalised_innovation = d2
     agrees = d2 <= s.gate
     if agrees:
@@ -66,19 +67,26 @@ def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings,
         state.contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
         if state.contradicted_s > s.release_s:
             doubt(stamp_ns, norm(residual), state)
-            y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
-            d2 = normalised_squared(y)
+            y, given = weighed(residual, sd_mps, state)
+            d2 = normalised_squared(given)
         elif norm(residual) > s.gate_speed_mps:
             state.rejected += 1
             return False
     if d2 > s.huber:
-        y = innovation(state.P, zupt.H, np.eye(3) * (sd_mps**2 * d2 / s.huber), residual)
+        y, given = weighed(residual, sd_mps * np.sqrt(d2 / s.huber), state)
     else:
         state.agreed += 1
-    apply(y, zupt.H, zupt.without_gyro_bias(gain(y)), state)
+    apply(y, zupt.H, zupt.without_gyro_bias(gain(given)), state)
     state.last_accepted_ns = stamp_ns
     state.accepted += 1
     return agrees
+
+
+@compiled
+def weighed(residual: Floats, sd_mps: float, state: FilterState) -> tuple[Innovation, Innovation]:
+    """Return the innovation of a velocity residual (3,), and what it would be if the yaw were known."""
+    y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
+    return y, given_yaw(state.P, y)
 
 
 @compiled
@@ -107,4 +115,4 @@ def level(force_mps2: Floats, sd_mps: float, state: FilterState) -> None:
     force = difference(force_mps2, state.accel_bias_mps2)
     R = gravity.noise(sd_mps, state.gravity_mps2)
     y = innovation(state.P, gravity.H, R, gravity.residual(state.quat_xyzw, force))
-    apply(y, gravity.H, gain(y), state)
+    apply(y, gravity.H, gain(given_yaw(state.P, y)), state)

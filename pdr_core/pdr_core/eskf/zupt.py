@@ -45,5 +45,4 @@ def without_gyro_bias(K: Floats) -> Floats:
     out = K.copy()
     for i in range(GYRO_BIAS, GYRO_BIAS + 3):
         out[i] = 0.0
-    out[8] = 0.0
     return out
