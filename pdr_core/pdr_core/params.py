@@ -38,7 +38,11 @@ class IntakeParams:
         source="measured on real walks",
     )
     gyro_motion_noise: float = parameter(
-        0.0005, "noise density of the gyro per rate", unit="1/sqrt(Hz)", bounds=(0.0, 1.0), source="measured on real walks"
+        0.0005,
+        "noise density of the gyro per rate",
+        unit="1/sqrt(Hz)",
+        bounds=(0.0, 1.0),
+        source="measured on real walks",
     )
     accel_motion_noise: float = parameter(
         0.003,
@@ -113,7 +117,8 @@ class StanceParams:
         1e5, "the threshold is at most this, unless threshold_min is larger", bounds=(1e-3, 1e12)
     )
     quiet_max: float = parameter(
-        300.0, "what is more than this is no noise of a resting sensor; 0: noise does not raise the threshold",
+        300.0,
+        "what is more than this is no noise of a resting sensor; 0: noise does not raise the threshold",
         bounds=(0.0, 1e6),
     )
     still_sd_mps: float = parameter(
@@ -153,7 +158,10 @@ class StanceParams:
         5.2e-4, "a resting foot may turn steadily by this", unit="rad", bounds=(0.0, 1.0), source="0.03 deg"
     )
     rest_drift_radps2: float = parameter(
-        1.7e-4, "a bias may drift so fast: late windows of a rest count more", unit="rad/s^2", bounds=(0.0, 1.0),
+        1.7e-4,
+        "a bias may drift so fast: late windows of a rest count more",
+        unit="rad/s^2",
+        bounds=(0.0, 1.0),
         source="0.01 deg/s a second",
     )
 
@@ -199,7 +207,7 @@ class FilterParams:
         bounds=(0.0, 100.0),
     )
     gate_release_s: float = parameter(
-        0.1, "after so long in contradicting stances it is the estimate that is doubted", unit="s", bounds=(0.0, 10.0)
+        0.15, "after so long in contradicting stances it is the estimate that is doubted", unit="s", bounds=(0.0, 10.0)
     )
     step_merge_s: float = parameter(
         0.3,
@@ -214,6 +222,9 @@ class FilterParams:
         unit="m",
         bounds=(0.0, 1.0),
         source="half of the shortest shuffle among real walks",
+    )
+    step_turn_min_rad: float = parameter(
+        0.35, "unless it turns by so much", unit="rad", bounds=(0.0, 3.15), source="20 deg: more than a wobble"
     )
     gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
     gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))

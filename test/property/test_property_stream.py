@@ -21,7 +21,7 @@ PARAMS = Params()
 
 
 def troubled_walk():
-    """Return a walk with a gap, a restart of the clock, duplicates, a late sample, NaN, saturation and gyro pauses."""
+    """Return a walk with a gap, a restart of the clock, duplicates, a late sample, NaN, clipped rates and gyro pauses."""
     sim = simulated_walk(DriverParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
     imu = ImuBlock(*(column.copy() for column in sim.imu))
     imu.stamp_ns[450:] += 700_000_000
@@ -30,20 +30,21 @@ def troubled_walk():
     imu.stamp_ns[800:] -= 30_000_000_000
     imu.accel_mps2[333, 1] = np.nan
     imu.gyro_radps[700:704] = 34.9
+    imu.gyro_radps[500:507] = np.outer([2.0, 5.0, 6.0, 6.02, 6.0, 4.5, 2.0], [0.3, 1.0, -0.9])
+    imu.gyro_radps[550:570, 2] = -7.0  # a plateau that lasts too long
     imu.gyro_sd_radps[900:930] = -1.0
     return imu
 
 
 RAW = troubled_walk()
-TRUSTED = Ingestion(PARAMS.intake).run(RAW)
 
 
-def whole_stance():
-    stage = StanceDetection(PARAMS.stance, PARAMS.place)
-    return joined([stage.run(TRUSTED), stage.finish()])
+def whole(stage, block):
+    return joined([stage.run(block), stage.finish()])
 
 
-JUDGED = whole_stance()
+TRUSTED = whole(Ingestion(PARAMS.intake), RAW)
+JUDGED = whole(StanceDetection(PARAMS.stance, PARAMS.place), TRUSTED)
 
 
 class Intake:
@@ -54,7 +55,7 @@ class Intake:
         return self.stage.run(block), []
 
     def finish(self):
-        return part(TRUSTED, 0, 0), self.stage.notices
+        return self.stage.finish(), self.stage.notices
 
 
 class Stance:

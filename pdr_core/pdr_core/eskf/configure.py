@@ -31,4 +31,5 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         release_s=p.gate_release_s,
         merge_ns=round(p.step_merge_s * NANOSECONDS),
         step_min_m=p.step_min_m,
+        step_turn_min_rad=p.step_turn_min_rad,
     )

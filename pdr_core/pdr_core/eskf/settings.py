@@ -23,3 +23,4 @@ class Settings(NamedTuple):
     release_s: float
     merge_ns: int
     step_min_m: float
+    step_turn_min_rad: float

@@ -47,6 +47,7 @@ STEPS = [
     ("away_m", np.float64),                   # farthest distance from where the foot stood last
     ("excursion_m", np.float64),              # the farthest between the two ends
     ("end_covariance", np.float64, (2, 3, 3)),
+    ("end_quat_xyzw", np.float64, (2, 4)),
     ("end_yaw_rad", np.float64, 2),
     ("end_yaw_sd_rad", np.float64, 2),
     ("cross", np.float64, (SIZE, 6)),

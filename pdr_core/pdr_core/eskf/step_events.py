@@ -1,8 +1,8 @@
 """Steps: from the end of one stance to the end of the next, with the covariance of the displacement.
 
 A stance goes on while the zero-velocity updates are believed; interruptions shorter than the merge time belong to it,
-and longer ones in which the foot stays where it is: a person who fidgets takes no step. What counts is how far the foot
-went, not where it came down, so a step on the spot is one.
+and longer ones in which the foot neither goes away nor turns: a person who fidgets takes no step. What counts is how far
+the foot was, not where it came down, so a step on the spot is one.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import yaw_rad
+from pdr_core.maths.quaternion import turn_about_up_rad, yaw_rad
 from pdr_core.maths.vector import norm
 from pdr_core.records import StepEvent
 
@@ -23,6 +23,7 @@ def stand(stamp_ns: int, state: FilterState) -> None:
     state.excursion_m = max(state.excursion_m, state.away_m)
     state.away_m = 0.0
     state.end_ns[1] = stamp_ns
+    state.end_quat_xyzw[1] = state.quat_xyzw
     state.end_yaw_rad[1] = yaw_rad(state.quat_xyzw)
     state.end_yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
     for i in range(3):
@@ -50,14 +51,15 @@ def stance_is_over(stamp_ns: int, merge_ns: int, state: FilterState) -> bool:
     return state.end_ns[1] != NO_STAMP and abs(stamp_ns - state.end_ns[1]) > merge_ns
 
 
-def step_taken(state: FilterState, step_min_m: float) -> StepEvent | None:
+def step_taken(state: FilterState, step_min_m: float, turn_min_rad: float) -> StepEvent | None:
     """Return the step to the end of the stance noted last, from which the next one begins.
 
     None is returned for the first stance, which is where the walk starts, and where the foot was never as far away as
-    `step_min_m`: then it is still the same stance.
+    `step_min_m` and has not turned by `turn_min_rad`: then it is still the same stance.
     """
     first, step = state.end_ns[0] == NO_STAMP, None
-    if not first and state.excursion_m >= step_min_m:
+    turn_rad = abs(turn_about_up_rad(state.end_quat_xyzw[0], state.end_quat_xyzw[1]))
+    if not first and (state.excursion_m >= step_min_m or turn_rad >= turn_min_rad):
         step = StepEvent(
             index=int(state.step_number),
             start_ns=int(state.end_ns[0]),
@@ -77,6 +79,6 @@ def begin_next(state: FilterState) -> None:
     """Make the end of the stance noted last the one from which the next step begins."""
     state.excursion_m = 0.0
     state.cross[:, :3] = state.cross[:, 3:]
-    for name in ("end_ns", "end_position_m", "end_covariance", "end_yaw_rad", "end_yaw_sd_rad"):
+    for name in ("end_ns", "end_position_m", "end_covariance", "end_quat_xyzw", "end_yaw_rad", "end_yaw_sd_rad"):
         state[name][0] = state[name][1]
     state.end_ns[1] = NO_STAMP

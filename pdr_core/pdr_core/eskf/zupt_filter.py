@@ -39,7 +39,7 @@ class ZuptFilter:
         return self._step_taken() if self.state.end_ns[1] != NO_STAMP else []
 
     def _step_taken(self) -> list[StepEvent]:
-        step = step_taken(self.state, self._settings.step_min_m)
+        step = step_taken(self.state, self._settings.step_min_m, self._settings.step_turn_min_rad)
         return [step] if step else []
 
     @property

@@ -24,9 +24,7 @@ class MaximumState(NamedTuple):
 
 def fresh_maximum() -> MaximumState:
     """Return an empty queue."""
-    return MaximumState(
-        np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(CAPACITY, np.int64), np.zeros(CAPACITY)
-    )
+    return MaximumState(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(CAPACITY, np.int64), np.zeros(CAPACITY))
 
 
 @compiled
