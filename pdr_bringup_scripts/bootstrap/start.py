@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from typing import NoReturn
@@ -50,10 +51,11 @@ def _starts(layout: Layout) -> bool:
 
 
 def _become(layout: Layout, arguments: list[str]) -> NoReturn:
-    """Replace this process by the command proper."""
+    """Replace this process by the command proper; a Ctrl-C waits until that can answer it."""
     sourced = bool(stamp.read(layout)["sourced"])
     environment = launch_environment(os.environ, layout, sourced)
     command = [str(layout.python), "-m", "pdr_bringup_scripts", *arguments]
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     os.execve(layout.python, command, environment)
 
 

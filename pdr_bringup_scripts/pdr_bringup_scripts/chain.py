@@ -1,9 +1,11 @@
 """Starts the nodes of one foot as separate processes, together, and ends them together."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 
@@ -15,13 +17,24 @@ NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
 DRIVER = "imu_driver"
 QUICK_DISCOVERY = Path(__file__).with_name("fastdds_quick.xml")
 GRACE_S = 5.0
+NAMESPACE = "pdr"  # of our topics, so that nobody else's `odom` is taken for ours
 
 
 class Chain:
-    """A context manager: the processes run while the block does. Their output goes to `folder`."""
+    """A context manager: the processes run in a namespace while the block does. Their output goes to `folder`."""
 
-    def __init__(self, folder: Path, parameters: dict[str, dict[str, object]]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        parameters: dict[str, dict[str, object]],
+        namespace: str,
+        nodes: tuple[str, ...] = (*NODES, DRIVER),
+        remapped: Mapping[str, Mapping[str, str]] | None = None,  # {node: {topic: its other name}}
+    ) -> None:
         self._folder = folder
+        self._namespace = namespace
+        self._nodes = nodes
+        self._remapped = remapped or {}
         self._parameters = folder / "parameters.yaml"
         self._content = {"/**": {"ros__parameters": parameters}}
         self._processes: dict[str, subprocess.Popen] = {}
@@ -30,7 +43,7 @@ class Chain:
         """Start all nodes at once: so they find each other within a moment."""
         self._folder.mkdir(parents=True, exist_ok=True)
         self._parameters.write_text(yaml.safe_dump(self._content, sort_keys=False))
-        for name in (*NODES, DRIVER):
+        for name in self._nodes:
             self._processes[name] = self._start(name)
         return self
 
@@ -46,8 +59,13 @@ class Chain:
 
     @property
     def driver_is_done(self) -> bool:
-        """The driver has delivered everything and ended."""
-        return self._processes[DRIVER].poll() is not None
+        """A driver was started, has delivered everything and ended."""
+        return DRIVER in self._processes and self._processes[DRIVER].poll() is not None
+
+    @property
+    def pids(self) -> dict[str, int]:
+        """The process of each node."""
+        return {name: process.pid for name, process in self._processes.items()}
 
     def check(self) -> None:
         """Raise a Problem if a node has died."""
@@ -58,8 +76,10 @@ class Chain:
     def _start(self, name: str) -> subprocess.Popen:
         command = [sys.executable, "-m", f"pdr_nodes.{name}_node", "--ros-args"]
         command += ["--params-file", str(self._parameters), "--log-level", "warn"]
-        with (self._folder / f"{name}.log").open("w") as log:
-            return subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT)
+        names = {"__ns": f"/{self._namespace}", **self._remapped.get(name, {})}
+        command += [part for topic, other in names.items() for part in ("-r", f"{topic}:={other}")]
+        with (self._folder / f"{name}.log").open("w") as log:  # Ctrl-C is for us: the nodes end in order
+            return subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
 
     def _last_words(self, name: str) -> str:
         lines = (self._folder / f"{name}.log").read_text().strip().splitlines()
@@ -86,3 +106,11 @@ def stay_on_this_machine(logs: Path, domain: int | None) -> None:
 def private_domain() -> int:
     """Return a ROS domain that other runs on this machine hardly use."""
     return 1 + os.getpid() % 100
+
+
+def checked_namespace(name: str) -> str:
+    """Return a namespace without its slashes; Problem if ROS does not allow it."""
+    inner = name.strip("/")
+    if not re.fullmatch(r"[A-Za-z_]\w*(/[A-Za-z_]\w*)*", inner, re.ASCII):
+        raise Problem(f"--namespace {name!r} is no namespace of ROS; it looks like left_foot")
+    return inner

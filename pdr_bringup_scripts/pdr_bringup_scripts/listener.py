@@ -1,7 +1,7 @@
 """Listens to a running chain: records its topics and keeps the latest of each."""
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import rclpy
@@ -9,6 +9,7 @@ from ament_index_python.packages import get_package_share_directory
 from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
+from rclpy.signals import SignalHandlerOptions
 
 from pdr_core.recording.bag_writer import BagWriter
 from pdr_nodes.qos import OWN, STATUS
@@ -26,11 +27,11 @@ STATUS_TOPICS = ("filter_health", "diagnostics")  # go on while there are no sam
 
 
 class Listener(Node):
-    """Subscribes to everything that a run says; `take` gets each message with its topic."""
+    """Subscribes to everything that the nodes of a namespace say; `take` gets each message with its topic."""
 
-    def __init__(self, take: Callable[[str, str, bytes], None]) -> None:
-        super().__init__("pdr_listener")
-        for topic, name in TOPICS.items():
+    def __init__(self, take: Callable[[str, str, bytes], None], namespace: str, topics: Mapping[str, str]) -> None:
+        super().__init__("pdr_listener", namespace=f"/{namespace}")
+        for topic, name in topics.items():
             qos = STATUS if topic in STATUS_TOPICS else OWN
             address = "/diagnostics" if topic == "diagnostics" else topic
             self.create_subscription(message_class(name), address, self._to(take, topic, name), qos, raw=True)
@@ -43,14 +44,19 @@ class Listener(Node):
 class Ears:
     """A context manager around a listener, spun by `listen`."""
 
-    def __init__(self, take: Callable[[str, str, bytes], None]) -> None:
+    def __init__(
+        self, take: Callable[[str, str, bytes], None], namespace: str, topics: Mapping[str, str] = TOPICS
+    ) -> None:
         self._take = take
+        self._namespace = namespace
+        self._topics = topics
 
     def __enter__(self) -> "Ears":
         """Join the graph."""
-        rclpy.init()
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # Ctrl-C is ours
         self._executor = EventsExecutor()
-        self._executor.add_node(Listener(self._take))
+        self.node = Listener(self._take, self._namespace, self._topics)
+        self._executor.add_node(self.node)
         return self
 
     def __exit__(self, *_: object) -> None:

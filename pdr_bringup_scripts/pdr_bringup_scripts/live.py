@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from pdr_bringup_scripts.book import Book, make_folder
-from pdr_bringup_scripts.chain import Chain, stay_on_this_machine
+from pdr_bringup_scripts.chain import NAMESPACE, Chain, stay_on_this_machine
 from pdr_bringup_scripts.listener import STATUS_TOPICS, Ears, bag_writer, message
 from pdr_bringup_scripts.live_recording import notices, outputs
 from pdr_bringup_scripts.problems import Problem
@@ -23,38 +23,60 @@ from pdr_nodes.convert import stamp_ns
 
 PIPELINE = "foot_inertial, live"
 BAG = "recording"
-QUIET_S = 3.5  # the nodes give out what waits after up to two seconds without samples
+LISTENERS = 2  # of the driver's samples: ingestion and the recording
+AFTERWARDS_S = 1.5  # beyond the time after which the nodes give out what waits
 NOTHING_S = 30.0
+IDLE_MAX_S = 10.0
 SHOW_EVERY = 20  # odometry messages
 
 
-def live_run(params: Params, out: Path, domain: int | None, terminal: Terminal, source: Sensor | None = None) -> Result:
+def live_run(
+    params: Params,
+    out: Path,
+    domain: int | None,
+    terminal: Terminal,
+    source: Sensor | None = None,
+    namespace: str = NAMESPACE,
+) -> Result:
     """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`.
 
     The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
     """
     make_folder(out)
-    params = replace(params, node=replace(params.node, input_reliable=True))  # the driver is ours
+    params = for_one_run(params)
     warm_up()  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
-    record(params, out, domain, terminal)
-    return judge(params, out, time.monotonic() - begin, source)
-
-
-def record(params: Params, out: Path, domain: int | None, terminal: Terminal) -> None:
-    """Run the nodes and write all they say to a bag."""
     stay_on_this_machine(out / "nodes", domain)
+    record(params, out, namespace, terminal)
+    return judge(params, out, time.monotonic() - begin, source, namespace)
+
+
+def for_one_run(params: Params) -> Params:
+    """Return the parameters of a run whose nodes are all ours. Played slowly, a stream is idle after a longer time."""
+    slowness = max(1.0, 1.0 / params.driver.rate_factor) if params.driver.rate_factor else 1.0
+    idle_s = min(params.node.idle_s * slowness, IDLE_MAX_S)
+    node = replace(params.node, input_reliable=True, autostart=True, idle_s=idle_s)
+    return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
+
+
+def record(params: Params, out: Path, namespace: str, terminal: Terminal) -> None:
+    """Run the nodes and write all they say to a bag."""
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
         bag = stack.enter_context(bag_writer(out / BAG))
         watch = Watch(bag.write, show, total(params))
-        ears = stack.enter_context(Ears(watch.take))
-        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params)))
-        while not (chain.driver_is_done and watch.quiet_s > QUIET_S):
+        ears = stack.enter_context(Ears(watch.take, namespace))
+        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), namespace))
+        while not (chain.driver_is_done and watch.quiet_s > quiet_for_good_s(params)):
             ears.listen(0.1)
             chain.check()
             if watch.quiet_s > NOTHING_S:
                 raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
+
+
+def quiet_for_good_s(params: Params) -> float:
+    """Return the silence [s] after which nothing more comes: the nodes have given out what waited."""
+    return 2.0 * params.node.idle_s + AFTERWARDS_S
 
 
 class Watch:
@@ -96,16 +118,16 @@ def total(params: Params) -> str:
     """Return how long the walk will take, as far as that is known before."""
     if params.driver.device != "simulated":
         return ""
-    return f" of {walk_duration_s(params.driver):.0f}"
+    return f" of {walk_duration_s(params.simulation):.0f}"
 
 
-def judge(params: Params, out: Path, seconds: float, source: Sensor | None) -> Result:
+def judge(params: Params, out: Path, seconds: float, source: Sensor | None, namespace: str) -> Result:
     """Compare what the nodes said with the truth, and write the files of the run."""
     session = open_recording(out / BAG)
     (sensor,) = session.sensors.values()
     with ExitStack() as stack:
         book = Book(session, source or sensor, out, stack)
-        for output in outputs(out / BAG):
+        for output in outputs(out / BAG, params.node.odom_rate_hz):
             book.keep(output)
         samples = sum(length(piece) for piece in sensor.pieces())
-        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG))
+        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG, namespace))

@@ -10,16 +10,22 @@ import numpy as np
 from pdr_bringup_scripts.problems import Problem
 from pdr_core.pipeline import FootOutput
 from pdr_core.records import Notice, joined
-from pdr_nodes.convert import nav_block, stance_block, step_event
-from pdr_nodes.notice_board import notices_from
+from pdr_nodes.convert import nav_block, stamp_ns, stance_block, step_event
+from pdr_nodes.notice_board import NO_INPUT, notices_from
+from pdr_nodes.rate_limit import RateLimit
 
 PIECE = 5000
 
 
-def outputs(bag: Path) -> Iterator[FootOutput]:
-    """Yield the estimates in pieces, and all steps with the first piece."""
+def outputs(bag: Path, odom_rate_hz: float) -> Iterator[FootOutput]:
+    """Yield the estimates in pieces, each with its verdict, and all steps with the first piece.
+
+    Of the estimates, at most so many a second are said: which ones, the stamps of the verdicts tell.
+    """
     steps = [step_event(m) for m in messages(bag, "step")]
-    pairs = zip_longest(messages(bag, "stance"), messages(bag, "odom"))
+    limit = RateLimit(odom_rate_hz)
+    said = (m for m in messages(bag, "stance") if limit.allows(stamp_ns(m.imu.header.stamp)))
+    pairs = zip_longest(said, messages(bag, "odom"))
     while piece := list(islice(pairs, PIECE)):
         if None in piece[-1]:
             raise Problem(f"{bag}: verdicts and estimates are not as many: messages were lost on the way")
@@ -31,10 +37,15 @@ def outputs(bag: Path) -> Iterator[FootOutput]:
         steps = []
 
 
-def notices(bag: Path) -> list[Notice]:
-    """Return the last word of every node on what was wrong."""
-    last = {status.name: status for m in messages(bag, "diagnostics") for status in m.status}
-    return [notice for status in last.values() for notice in notices_from(status)]
+def notices(bag: Path, namespace: str) -> list[Notice]:
+    """Return the last word of every node of our namespace on what was wrong: anybody speaks on that topic.
+
+    That the samples have come to their end is not wrong.
+    """
+    spoken = (status for m in messages(bag, "diagnostics") for status in m.status)
+    last = {status.name: status for status in spoken if status.name.startswith(f"{namespace}/")}
+    found = [notice for status in last.values() for notice in notices_from(status.values)]
+    return [notice for notice in found if notice.kind != NO_INPUT]
 
 
 def messages(bag: Path, topic: str) -> Iterator[Any]:

@@ -1,6 +1,7 @@
 """Every parameter of the suite: one class per stage, one field per parameter.
 
-YAML files, ROS declarations and the tables of the documentation are generated from here (see `parameter.py`).
+Those of stance detection and filter are in `params_foot.py`. YAML files, ROS declarations and the tables of the
+documentation are generated from here (see `parameter.py`).
 """
 
 from collections.abc import Mapping
@@ -8,6 +9,8 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from pdr_core.parameter import ParameterError, from_mapping, parameter
+from pdr_core.params_foot import FilterParams as FilterParams
+from pdr_core.params_foot import StanceParams as StanceParams
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,12 @@ class IntakeParams:
     restart_s: float = parameter(
         1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
     )
+    constant_rate_hz: float = parameter(
+        0.0,
+        "rate at which samples are stamped anew, for drivers that stamp on arrival; 0: the stamps as they come",
+        unit="Hz",
+        bounds=(0.0, 4000.0),
+    )
 
 
 @dataclass(frozen=True)
@@ -85,174 +94,12 @@ class PlaceParams:
 
 
 @dataclass(frozen=True)
-class StanceParams:
-    """Stance detection: GLRT, relative threshold, soft rest test."""
-
-    window_s: float = parameter(
-        0.035, "length of the centred window of the GLRT", unit="s", bounds=(0.0, 1.0), source="Gui eq. 8, W"
-    )
-    accel_sd_mps2: float = parameter(
-        0.1, "accelerometer noise in the GLRT", unit="m/s^2", bounds=(1e-4, 10.0), source="Gui eq. 8, sigma_f"
-    )
-    gyro_sd_radps: float = parameter(
-        0.017, "gyro noise in the GLRT", unit="rad/s", bounds=(1e-5, 1.0), source="Gui eq. 8, sigma_omega"
-    )
-    memory_s: float = parameter(
-        0.9,
-        "the threshold follows the largest statistic of so much time: longer than a stance",
-        unit="s",
-        bounds=(0.05, 60.0),
-        source="measured on real walks",
-    )
-    relative_share: float = parameter(
-        0.022,
-        "a foot stands where the statistic is at most this share of the largest; 0: threshold_min alone counts",
-        bounds=(0.0, 1.0),
-        source="measured on real walks: 1/45",
-    )
-    threshold_min: float = parameter(
-        30.0, "the threshold is at least this", bounds=(1e-3, 1e9), source="measured on real walks"
-    )
-    threshold_max: float = parameter(
-        1e5, "the threshold is at most this, unless threshold_min is larger", bounds=(1e-3, 1e12)
-    )
-    quiet_max: float = parameter(
-        300.0,
-        "what is more than this is no noise of a resting sensor; 0: noise does not raise the threshold",
-        bounds=(0.0, 1e6),
-    )
-    still_sd_mps: float = parameter(
-        0.005, "how still a standing foot is at best", unit="m/s", bounds=(1e-5, 10.0), source="measured on real walks"
-    )
-    sd_per_root_mps: float = parameter(
-        0.0022,
-        "how still it is, per square root of the statistic",
-        unit="m/s",
-        bounds=(0.0, 10.0),
-        source="measured on real walks",
-    )
-    rest_moving_radps: float = parameter(
-        0.5,
-        "a mean rate over this is a moving foot",
-        unit="rad/s",
-        bounds=(0.01, 10.0),
-        source="measured on real walks",
-    )
-    rest_smoothing_s: float = parameter(0.05, "time over which that mean is taken", unit="s", bounds=(0.0, 1.0))
-    rest_guard_s: float = parameter(
-        0.1, "time before and after movement that is left out of a rest", unit="s", bounds=(0.0, 2.0)
-    )
-    rest_shortest_s: float = parameter(0.4, "shortest window of the first rest", unit="s", bounds=(0.05, 10.0))
-    rest_longest_s: float = parameter(3.0, "longest window of a rest", unit="s", bounds=(0.1, 60.0))
-    rest_later_s: float = parameter(
-        2.0, "shortest window of a later rest: longer than any stance of a walk", unit="s", bounds=(0.1, 60.0)
-    )
-    rest_floor_radps: float = parameter(
-        8.7e-4,
-        "a rest never tells the gyro bias better than this",
-        unit="rad/s",
-        bounds=(0.0, 1.0),
-        source="0.05 deg/s",
-    )
-    rest_turn_rad: float = parameter(
-        5.2e-4, "a resting foot may turn steadily by this", unit="rad", bounds=(0.0, 1.0), source="0.03 deg"
-    )
-    rest_drift_radps2: float = parameter(
-        1.7e-4,
-        "a bias may drift so fast: late windows of a rest count more",
-        unit="rad/s^2",
-        bounds=(0.0, 1.0),
-        source="0.01 deg/s a second",
-    )
-
-
-@dataclass(frozen=True)
-class FilterParams:
-    """The error-state Kalman filter."""
-
-    alignment_s: float = parameter(
-        0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"
-    )
-    initial_yaw_rad: float = parameter(0.0, "yaw at the start", unit="rad", bounds=(-3.15, 3.15))
-    gravity_source: str = parameter(
-        "rest", "gravity from the specific force of the first rest or from the place", choices=("rest", "place")
-    )
-    zero_velocity_sd_mps: float = parameter(
-        0.02,
-        "how still a standing foot is, where the detector does not say",
-        unit="m/s",
-        bounds=(1e-5, 10.0),
-        source="Gui eq. 22, Zhou R_v",
-    )
-    contact_height_m: float = parameter(
-        0.08,
-        "height of the sensor above the point about which a standing foot rolls; 0: it does not roll",
-        unit="m",
-        bounds=(0.0, 1.0),
-        source="measured on real walks",
-    )
-    huber: float = parameter(
-        5.0,
-        "normalised innovation squared up to which a zero-velocity update has its full weight",
-        bounds=(0.1, 1e9),
-        source="Huber 1964; measured on real walks",
-    )
-    gate: float = parameter(
-        30.0, "normalised innovation squared beyond which a stance contradicts the estimate", bounds=(1.0, 1e9)
-    )
-    gate_speed_mps: float = parameter(
-        2.0,
-        "a contradicting stance is first taken for a dip in mid-swing where the foot seems faster than this",
-        unit="m/s",
-        bounds=(0.0, 100.0),
-    )
-    gate_release_s: float = parameter(
-        0.15, "after so long in contradicting stances it is the estimate that is doubted", unit="s", bounds=(0.0, 10.0)
-    )
-    step_merge_s: float = parameter(
-        0.3,
-        "interruptions of a stance up to this belong to it",
-        unit="s",
-        bounds=(0.0, 5.0),
-        source="measured on real walks",
-    )
-    step_min_m: float = parameter(
-        0.05,
-        "a foot that never is so far from where it stood takes no step",
-        unit="m",
-        bounds=(0.0, 1.0),
-        source="half of the shortest shuffle among real walks",
-    )
-    step_turn_min_rad: float = parameter(
-        0.35, "unless it turns by so much", unit="rad", bounds=(0.0, 3.15), source="20 deg: more than a wobble"
-    )
-    gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
-    gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))
-    accel_bias_walk: float = parameter(
-        1e-5, "random walk of the accelerometer bias", unit="m/s^2/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 16"
-    )
-    gyro_bias_walk: float = parameter(
-        1e-6, "random walk of the gyro bias", unit="rad/s/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 15"
-    )
-    bias_correlation_s: float = parameter(
-        3600.0, "correlation time of the biases, 1/beta", unit="s", bounds=(1.0, 1e9), source="Gui eq. 15-16"
-    )
-    initial_position_sd_m: float = parameter(0.001, "at the start", unit="m", bounds=(0.0, 1e3))
-    initial_velocity_sd_mps: float = parameter(0.01, "at the start", unit="m/s", bounds=(0.0, 10.0))
-    initial_tilt_sd_rad: float = parameter(0.03, "after levelling", unit="rad", bounds=(0.0, 3.15))
-    initial_yaw_sd_rad: float = parameter(0.001, "at the start", unit="rad", bounds=(0.0, 3.15))
-    initial_accel_bias_sd_mps2: float = parameter(0.02, "what the sensor may bring", unit="m/s^2", bounds=(0.0, 10.0))
-    initial_gyro_bias_sd_radps: float = parameter(
-        0.0035, "what the sensor may bring: 0.2 deg/s", unit="rad/s", bounds=(0.0, 1.0), source="measured on real walks"
-    )
-
-
-@dataclass(frozen=True)
 class DriverParams:
     """The driver: which device, how fast."""
 
     device: str = parameter("simulated", "where the samples come from", choices=("simulated", "replayed"))
     recording: str = parameter("", "path of the recording to replay")
+    columns: str = parameter("", "column map of a text recording; empty: the one beside it, or a known format")
     sensor: str = parameter("", "which sensor of the recording; empty: the only one")
     rate_factor: float = parameter(
         1.0, "speed of the replay; 0: as fast as the subscribers take it", bounds=(0.0, 1000.0)
@@ -260,14 +107,47 @@ class DriverParams:
     acknowledge_topic: str = parameter(
         "odom", "as fast as possible: samples count as taken once their estimate appears on this topic"
     )
-    walk: str = parameter("rectangle", "the simulated walk", choices=("rectangle", "straight", "still"))
-    walk_length_m: float = parameter(36.0, "length of the simulated walk", unit="m", bounds=(0.0, 1e5))
-    sensor_model: str = parameter(
-        "consumer", "the simulated sensor", choices=("ideal", "consumer", "gui_table_1"), source="Gui Table 1"
-    )
-    sample_rate_hz: float = parameter(200.0, "rate of the simulated sensor", unit="Hz", bounds=(20.0, 4000.0))
-    seed: int = parameter(1, "seed of the simulated noise", bounds=(0, 2**31))
+    subscribers: int = parameter(1, "the first sample waits for so many subscribers", bounds=(1, 100))
     settling_s: float = parameter(0.05, "what the gyro needs after being switched on", unit="s", bounds=(0.0, 10.0))
+
+
+@dataclass(frozen=True)
+class SimulationParams:
+    """The simulated walk and the sensor that feels it."""
+
+    motion: str = parameter(
+        "gui", "how the foot moves: as Gui prints it, or smoothly", choices=("gui", "smooth"), source="Gui section 5.1"
+    )
+    walk: str = parameter(
+        "rectangle",
+        "the walk; gui knows the first three",
+        choices=("rectangle", "straight", "still", "curve", "stairs", "run", "mixed"),
+    )
+    walk_length_m: float = parameter(36.0, "length of the walk, without its stairs", unit="m", bounds=(0.0, 1e5))
+    pace: float = parameter(
+        1.0, "speed of the smooth foot beside its usual one; 2: a run is a sprint", bounds=(0.5, 3.0)
+    )
+    sensor_model: str = parameter(
+        "consumer",
+        "the sensor",
+        choices=("ideal", "consumer", "gui_table_1", "gui_table_1_deg"),
+        source="Gui Table 1",
+    )
+    sample_rate_hz: float = parameter(200.0, "rate of the sensor", unit="Hz", bounds=(20.0, 4000.0))
+    earth_rate: bool = parameter(False, "the gyro feels the Earth turn", source="Gui eq. 31")
+    mounting_roll_rad: float = parameter(
+        0.0, "roll of the sensor on the foot, fixed axes", unit="rad", bounds=(-3.15, 3.15)
+    )
+    mounting_pitch_rad: float = parameter(0.0, "pitch of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
+    mounting_yaw_rad: float = parameter(0.0, "yaw of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
+    gyro_range_radps: float = parameter(
+        0.0, "angular rate at which the gyro clips; 0: as its model does", unit="rad/s", bounds=(0.0, 200.0)
+    )
+    accel_range_mps2: float = parameter(
+        0.0, "specific force at which the accelerometer clips; 0: as its model does", unit="m/s^2", bounds=(0.0, 5e3)
+    )
+    shock_mps2: float = parameter(0.0, "strongest shock at heel strike", unit="m/s^2", bounds=(0.0, 500.0))
+    seed: int = parameter(1, "seed of noise, biases and shocks", bounds=(0, 2**31))
 
 
 @dataclass(frozen=True)
@@ -277,9 +157,19 @@ class NodeParams:
     world_frame: str = parameter("odom", "frame of the estimate", source="REP-105")
     foot_frame: str = parameter("foot", "frame of the foot")
     sensor_frame: str = parameter("imu_link", "frame of the sensor", source="REP-145")
+    autostart: bool = parameter(True, "become active without being told; false: wait for the lifecycle services")
     publish_tf: bool = parameter(False, "broadcast world_frame -> foot_frame; one node at a time may")
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
+    )
+    odom_rate_hz: float = parameter(
+        200.0,
+        "estimates are published at most so often, by their stamps; steps always",
+        unit="Hz",
+        bounds=(1.0, 4000.0),
+    )
+    answer_timeout_s: float = parameter(
+        0.5, "a step's heading observation is waited for so long; 0: for ever", unit="s", bounds=(0.0, 60.0)
     )
     idle_s: float = parameter(
         1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)
@@ -295,6 +185,7 @@ class Params:
     stance: StanceParams = field(default_factory=StanceParams)
     filter: FilterParams = field(default_factory=FilterParams)
     driver: DriverParams = field(default_factory=DriverParams)
+    simulation: SimulationParams = field(default_factory=SimulationParams)
     node: NodeParams = field(default_factory=NodeParams)
 
 

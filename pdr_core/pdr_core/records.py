@@ -11,6 +11,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from pdr_core.conventions import NO_STAMP
+
 Floats = NDArray[np.float64]
 Stamps = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -61,6 +63,24 @@ class PoseEstimate:
 
 
 @dataclass(frozen=True)
+class Biases:
+    """What a sensor shows too much, and how well that is known."""
+
+    accel_mps2: Floats  # (3,)
+    gyro_radps: Floats  # (3,)
+    covariance: Floats  # (6, 6) accelerometer, gyro
+
+
+@dataclass(frozen=True)
+class Handover:
+    """What one estimator hands to another, so that it can go on from there."""
+
+    stamp_ns: int
+    pose: PoseEstimate
+    biases: Biases | None  # None: unknown
+
+
+@dataclass(frozen=True)
 class StepEvent:
     """One step of one foot: from the end of one stance to the end of the next."""
 
@@ -72,6 +92,7 @@ class StepEvent:
     displacement_covariance_m2: Floats  # (3, 3)
     yaw_rad: float  # of the foot while it stands
     yaw_sd_rad: float
+    answer_due_ns: int = NO_STAMP  # the filter waits here for the heading observation; NO_STAMP: it asks for none
 
     @property
     def length_m(self) -> float:
@@ -89,6 +110,29 @@ class StepEvent:
         across = np.array([-np.sin(self.heading_rad), np.cos(self.heading_rad)])
         variance_m2 = float(across @ self.displacement_covariance_m2[:2, :2] @ across)
         return min(np.pi, float(np.sqrt(variance_m2)) / max(self.length_m, 1e-6))
+
+
+class HeadingSource(Enum):
+    """Who knows better; the values are those of pdr_msgs/HeadingObservation."""
+
+    NONE = 0
+    STRAIGHT_WALK = 1
+    BUILDING = 2
+    OTHER_FOOT = 3
+    MAGNETOMETER = 4
+    EXTERNAL = 5
+
+
+@dataclass(frozen=True)
+class HeadingObservation:
+    """The answer to one step event. Each gets exactly one, an empty one (source NONE) where there is nothing to say."""
+
+    step_index: int
+    step_ns: int  # stamp of the step event
+    applies_from_ns: int  # the first sample at or after it takes the observation; not before the step's answer_due_ns
+    source: HeadingSource
+    yaw_error_rad: float  # estimated minus true: by how much the track is turned too far, counter-clockwise
+    yaw_error_sd_rad: float
 
 
 class FilterMode(Enum):

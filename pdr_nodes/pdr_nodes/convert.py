@@ -1,16 +1,18 @@
 """Between messages and records: the only place where the two meet. Stamps are int64 nanoseconds on our side."""
 
+import math
+import sys
+
 import numpy as np
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Point, PoseStamped, Quaternion, TransformStamped, Vector3
+from geometry_msgs.msg import Point, PoseStamped, PoseWithCovariance, Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
 from pdr_core import records
-from pdr_core.conventions import NANOSECONDS
+from pdr_core.conventions import NANOSECONDS, NO_STAMP
 from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock
 from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
-from pdr_msgs.srv import ResetEstimate
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
 
@@ -27,7 +29,8 @@ def stamp_ns(time: Time) -> int:
 
 def vector(v: Floats) -> Vector3:
     """Return three numbers as a message."""
-    return Vector3(x=float(v[0]), y=float(v[1]), z=float(v[2]))
+    x, y, z = v.tolist()
+    return Vector3(x=x, y=y, z=z)
 
 
 def numbers(v: Vector3 | Point) -> list[float]:
@@ -37,19 +40,27 @@ def numbers(v: Vector3 | Point) -> list[float]:
 
 def isotropic(sd: float) -> Floats:
     """Return a covariance, (9,) row major, of equal deviations; -1 first where there is no measurement."""
+    covariance = np.zeros(9)
     if sd < 0.0:
-        return np.array([NOT_MEASURED] + [0.0] * 8)
-    return np.diag([sd**2] * 3).ravel()
+        covariance[0] = NOT_MEASURED
+    else:
+        covariance[::4] = sd**2
+    return covariance
 
 
 def deviation(covariance: Floats) -> float:
     """Return the standard deviation of one axis, -1 where there is no measurement."""
-    return -1.0 if covariance[0] == NOT_MEASURED else float(np.sqrt(max(covariance[0], 0.0)))
+    variance = float(covariance[0])
+    return -1.0 if variance == NOT_MEASURED else math.sqrt(max(variance, 0.0))
 
 
 def imu_message(block: ImuBlock, i: int, frame_id: str) -> Imu:
-    """Return sample i of a block. The orientation is not measured."""
-    message = Imu()
+    """Return sample i of a block."""
+    return with_sample(Imu(), block, i, frame_id)
+
+
+def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str) -> Imu:
+    """Fill a message with sample i of a block. The orientation is not measured."""
     message.header.stamp = time_message(int(block.stamp_ns[i]))
     message.header.frame_id = frame_id
     message.orientation_covariance = isotropic(NOT_MEASURED)
@@ -74,7 +85,8 @@ def imu_block(message: Imu) -> ImuBlock:
 
 def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
     """Return sample i of a block with its verdict."""
-    message = StanceImu(imu=imu_message(block.imu, i, frame_id))
+    message = StanceImu()
+    with_sample(message.imu, block.imu, i, frame_id)  # a second Imu would cost as much as all the rest
     message.magnetic_field.magnetic_field_covariance = isotropic(NOT_MEASURED)
     message.stance = bool(block.stance[i])
     message.statistic = finite(block.statistic[i])
@@ -88,7 +100,7 @@ def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
 
 def finite(value: float) -> float:
     """Return the value, or the largest number in place of infinity."""
-    return float(np.minimum(value, np.finfo(np.float64).max))
+    return min(float(value), sys.float_info.max)
 
 
 def stance_block(message: StanceImu) -> StanceBlock:
@@ -147,6 +159,8 @@ def step_message(step: records.StepEvent, world_frame: str, foot_frame: str) -> 
     message.header.frame_id = world_frame
     message.child_frame_id = foot_frame
     message.index = step.index
+    if step.answer_due_ns != NO_STAMP:
+        message.answer_due = time_message(step.answer_due_ns)
     message.start = time_message(step.start_ns)
     message.position.x, message.position.y, message.position.z = step.position_m.tolist()
     message.displacement = vector(step.displacement_m)
@@ -170,6 +184,7 @@ def step_event(message: StepEvent) -> records.StepEvent:
         displacement_covariance_m2=np.array(message.displacement_covariance).reshape(3, 3),
         yaw_rad=message.yaw,
         yaw_sd_rad=message.yaw_stddev,
+        answer_due_ns=stamp_ns(message.answer_due) or NO_STAMP,
     )
 
 
@@ -213,12 +228,12 @@ def health_message(
     return message
 
 
-def pose_of_reset(request: ResetEstimate.Request) -> records.PoseEstimate:
-    """Return the pose that a reset asks for; ValueError if it holds something that is not a pose."""
-    position, q = request.pose.pose.position, request.pose.pose.orientation
+def pose_estimate(message: PoseWithCovariance) -> records.PoseEstimate:
+    """Return a message as a pose, without attitude where its quaternion is zero; ValueError if it is no pose."""
+    position, q = message.pose.position, message.pose.orientation
     position_m = np.array([position.x, position.y, position.z])
     xyzw = np.array([q.x, q.y, q.z, q.w])
-    covariance = np.array(request.pose.covariance).reshape(6, 6)
+    covariance = np.array(message.covariance).reshape(6, 6)
     if not (np.isfinite(position_m).all() and np.isfinite(xyzw).all() and np.isfinite(covariance).all()):
         raise ValueError("the pose holds NaN or infinity")
     if (np.diag(covariance) < 0.0).any():

@@ -24,6 +24,8 @@ def read_params(node: Node, groups: tuple[str, ...]) -> Params:
         for field in dataclasses.fields(GROUPS[group]):
             name = f"{group}.{field.name}"
             shown = descriptor(field)
+            if node.has_parameter(name) and node.describe_parameter(name).read_only:
+                continue  # the node was configured before
             if node.has_parameter(name):
                 shown.type = node.get_parameter(name).type_.value
                 node.set_descriptor(name, shown)

@@ -3,23 +3,21 @@
 import time
 from collections.abc import Callable
 
-from rclpy.node import Node
-
 
 class IdleWatch:
     """Calls `finish` once when nothing has come for a while; the next sample starts the watch anew."""
 
-    def __init__(self, node: Node, after_s: float, finish: Callable[[], None]) -> None:
+    def __init__(self, after_s: float, finish: Callable[[], None]) -> None:
         self._after_s = after_s
         self._finish = finish
         self._last_s: float | None = None
-        self._timer = node.create_timer(after_s / 4.0, self._look)
 
     def fed(self) -> None:
         """Note that a sample came."""
         self._last_s = time.monotonic()
 
-    def _look(self) -> None:
+    def look(self) -> None:
+        """See whether it is time."""
         if self._last_s is not None and time.monotonic() - self._last_s > self._after_s:
             self._last_s = None
             self._finish()

@@ -1,41 +1,42 @@
 """Node `imu_ingestion`: any driver's samples in (`imu/data_raw`), trustworthy samples out (`imu/data`)."""
 
-from rclpy.node import Node
 from sensor_msgs.msg import Imu
 
 from pdr_core.intake import Ingestion
+from pdr_core.params import Params
 from pdr_core.records import ImuBlock, length
 from pdr_core.warmup import warm_up
 from pdr_nodes.convert import imu_block, imu_message
-from pdr_nodes.declare import read_params
-from pdr_nodes.idle import IdleWatch
-from pdr_nodes.notice_board import NoticeBoard
-from pdr_nodes.qos import OWN, driver_input
+from pdr_nodes.managed import ManagedNode
+from pdr_nodes.qos import driver_input
 from pdr_nodes.run import run
 
 
-class ImuIngestionNode(Node):
+class ImuIngestionNode(ManagedNode):
     """Hosts the intake of one sensor."""
 
-    def __init__(self) -> None:
-        super().__init__("imu_ingestion", automatically_declare_parameters_from_overrides=True)
-        params = read_params(self, ("intake", "node"))
+    NAME = "imu_ingestion"
+    GROUPS = ("intake", "node")
+
+    def set_up(self, params: Params) -> None:
+        """Take the samples of any driver, give trustworthy ones."""
         warm_up()
         self._intake = Ingestion(params.intake)
         self._frame_id = params.node.foot_frame
-        self._publisher = self.create_publisher(Imu, "imu/data", OWN)
-        self._board = NoticeBoard(self, "samples", lambda: self._intake.notices)
-        # half the time after which the stance detector gives out its last samples, so that none comes after them
-        self._idle = IdleWatch(self, 0.5 * params.node.idle_s, lambda: self._publish(self._intake.finish()))
-        self.create_subscription(Imu, "imu/data_raw", self._take, driver_input(params.node.input_reliable))
+        self._samples = self.output(Imu, "imu/data")
+        self.input(
+            Imu, "imu/data_raw", imu_block, self._take, driver_input(params.node.input_reliable), restarts_anew=True
+        )
+        # half the time: what waits here must reach the stance detector before that gives out what waits there
+        self.when_idle(params.node.idle_s / 2.0, lambda: self._publish(self._intake.finish()))
+        self.tell("samples", lambda: self._intake.notices)
 
-    def _take(self, message: Imu) -> None:
-        self._idle.fed()
-        self._publish(self._intake.run(imu_block(message)))
+    def _take(self, raw: ImuBlock) -> None:
+        self._publish(self._intake.run(raw))
 
     def _publish(self, block: ImuBlock) -> None:
         for i in range(length(block)):
-            self._publisher.publish(imu_message(block, i, self._frame_id))
+            self._samples.publish(imu_message(block, i, self._frame_id))
 
 
 def main() -> None:

@@ -1,6 +1,6 @@
 """Tells people what is wrong: once in the log, and every second on /diagnostics."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
@@ -9,49 +9,65 @@ from pdr_core.records import Level, Notice
 from pdr_nodes.qos import STATUS
 
 PERIOD_S = 1.0
+NO_INPUT = "no_input"  # the kind of notice that also the end of a recording brings
+LIFECYCLE, STREAMS = "lifecycle", "streams"
+Source = Callable[[], list[Notice]]
 
 
 class NoticeBoard:
-    """Publishes the notices of a stage; REP-107 names it `node: what`."""
+    """Publishes the state of a node and the notices of its sources; REP-107 names each status `node: what`."""
 
-    def __init__(self, node: Node, what: str, notices: Callable[[], list[Notice]]) -> None:
+    def __init__(self, node: Node, state: Callable[[], str], streams: Source) -> None:
         self._node = node
-        self._name = f"{node.get_fully_qualified_name().lstrip('/')}: {what}"
-        self._notices = notices
+        self._state = state
+        self._streams = streams
+        self.sources: dict[str, Source] = {}
         self._told: set[str] = set()
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", STATUS)
         self._timer = node.create_timer(PERIOD_S, self._publish)
 
     def _publish(self) -> None:
-        notices = self._notices()
-        for notice in notices:
-            self._log_once(notice)
-        message = DiagnosticArray(status=[self._status(notices)])
+        found = {what: notices() for what, notices in ({STREAMS: self._streams} | self.sources).items()}
+        self._log_new([notice for notices in found.values() for notice in notices])
+        statuses = [status(self._name(LIFECYCLE), [], self._state())]
+        statuses += [status(self._name(what), notices, "as it should be") for what, notices in found.items()]
+        message = DiagnosticArray(status=statuses)
         message.header.stamp = self._node.get_clock().now().to_msg()
         self._publisher.publish(message)
 
-    def _log_once(self, notice: Notice) -> None:
-        if notice.kind in self._told:
-            return
-        self._told.add(notice.kind)
-        if notice.level is Level.ERROR:
-            self._node.get_logger().error(notice.text)
-        else:
-            self._node.get_logger().warning(notice.text)
+    def _name(self, what: str) -> str:
+        return f"{self._node.get_fully_qualified_name().lstrip('/')}: {what}"
 
-    def _status(self, notices: list[Notice]) -> DiagnosticStatus:
-        worst = max(notices, key=lambda n: n.level.value, default=None)
-        status = DiagnosticStatus(name=self._name, message=worst.text if worst else "as it should be")
-        status.level = bytes([worst.level.value if worst else 0])
-        status.values = [KeyValue(key=n.kind, value=f"{n.count} x {n.text}") for n in notices]
-        return status
+    def _log_new(self, notices: list[Notice]) -> None:
+        """Log what was not there a moment ago."""
+        for notice in notices:
+            if notice.kind not in self._told:
+                log = self._node.get_logger()
+                (log.error if notice.level is Level.ERROR else log.warning)(notice.text)
+        self._told = {notice.kind for notice in notices}
 
 
-def notices_from(status: DiagnosticStatus) -> list[Notice]:
-    """Return the notices of a status that a board has published."""
-    level = Level(status.level[0] if isinstance(status.level, bytes) else status.level)
-    found = []
-    for item in status.values:
-        count, _, text = item.value.partition(" x ")
-        found.append(Notice(level, item.key, text, int(count), 0))
-    return found
+def status(name: str, notices: list[Notice], message_without: str) -> DiagnosticStatus:
+    """Return notices as one status: the worst gives level and message, the values hold all of every one."""
+    worst = max(notices, key=lambda n: n.level.value, default=Notice(Level.OK, "", message_without, 0, 0))
+    out = DiagnosticStatus(name=name, message=worst.text, level=bytes([worst.level.value]))
+    out.values = [value for notice in notices for value in values(notice)]
+    return out
+
+
+def values(notice: Notice) -> list[KeyValue]:
+    """Return a notice as values `kind.field`."""
+    said = {"text": notice.text, "level": notice.level.name, "count": notice.count, "since": notice.first_stamp_ns}
+    return [KeyValue(key=f"{notice.kind}.{field}", value=str(value)) for field, value in said.items()]
+
+
+def notices_from(values: Iterable[KeyValue]) -> list[Notice]:
+    """Return the notices that the values of a status hold."""
+    found: dict[str, dict[str, str]] = {}
+    for item in values:
+        kind, _, field = item.key.partition(".")
+        found.setdefault(kind, {})[field] = item.value
+    return [
+        Notice(Level[said["level"]], kind, said["text"], int(said["count"]), int(said["since"]))
+        for kind, said in found.items()
+    ]

@@ -7,25 +7,26 @@ from collections.abc import Callable
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.experimental.events_executor import EventsExecutor
-from rclpy.node import Node
 
 from pdr_core.parameter import ParameterError
 from pdr_core.recording import RecordingError
+from pdr_nodes.managed import ManagedNode
 
 
-def run(make_node: Callable[[], Node]) -> None:
-    """Make the node and spin it; a bad parameter or recording is one sentence and exit code 2, Ctrl-C is exit code 0.
+def run(make_node: Callable[[], ManagedNode]) -> None:
+    """Make the node, start it and spin it. A bad parameter or recording is one sentence and exit code 2; Ctrl-C is 0.
 
     The events executor costs half of the others. It must be spun with a time-out: without one it cannot be stopped
-    (rclpy 7.1). A node that has work of its own has a method `work`, which returns the time [s] until it wants to be
-    called again, or None when it is done.
+    (rclpy 7.1).
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, shut_down)
     rclpy.init()
     code = 0
     try:
-        spin(make_node())
+        node = make_node()
+        node.start()
+        spin(node)
     except (ParameterError, RecordingError) as error:
         print(f"pdr: {error}", file=sys.stderr)
         code = 2
@@ -41,13 +42,12 @@ def shut_down(*_: object) -> None:
     """Leave it to rclpy: its own handler shuts the graph down. A KeyboardInterrupt would come out of any callback."""
 
 
-def spin(node: Node) -> None:
-    """Serve callbacks, and the node's own work where it has some, until it is done."""
+def spin(node: ManagedNode) -> None:
+    """Serve callbacks, and the node's own work, until it is done or shut down."""
     executor = EventsExecutor()
     executor.add_node(node)
-    work = getattr(node, "work", None)
-    while rclpy.ok():
-        wait_s = work() if work else 0.5
+    while rclpy.ok() and node.state != "finalized":
+        wait_s = node.work()
         if wait_s is None:
             return
         executor.spin_once(timeout_sec=wait_s)

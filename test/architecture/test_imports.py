@@ -18,15 +18,16 @@ HELPERS = " ".join(f"pdr_nodes.{part}" for part in sorted(PARTS_OF_NODES) if not
 # `warmup` compiles all stages, so that a node that is started alone finds the cache that the others use
 NODE = f"{BASE} {MESSAGES} rclpy {HELPERS} pdr_core.warmup"
 READS = "pdr_nodes.convert pdr_nodes.notice_board pdr_nodes.qos"
-RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation"
+RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation pdr_core.bench"
 
 # module or package -> what it and all below it may import beside the standard library and itself; the longest name wins
 MAY_IMPORT = {
     "pdr_core": "",
-    "pdr_core.records": "numpy",
+    "pdr_core.records": "numpy pdr_core.conventions",
     "pdr_core.conventions": "numpy",
     "pdr_core.parameter": "",
-    "pdr_core.params": "pdr_core.parameter",
+    "pdr_core.params_foot": "pdr_core.parameter",
+    "pdr_core.params": "pdr_core.parameter pdr_core.params_foot",
     "pdr_core.notices": "pdr_core.records",
     "pdr_core.params_file": "yaml pdr_core.parameter pdr_core.params",
     "pdr_core.maths": f"{BASE} scipy",
@@ -39,6 +40,7 @@ MAY_IMPORT = {
     "pdr_core.recording": f"{STAGE} rosbags mcap yaml apsw lz4 zstandard",
     "pdr_core.simulation": STAGE,
     "pdr_core.evaluation": f"{STAGE} plotly jinja2",
+    "pdr_core.bench": f"{STAGE} {ALL_STAGES} pdr_core.pipeline pdr_core.simulation pdr_core.evaluation",
     "pdr_nodes": f"{BASE} {MESSAGES} rclpy {HELPERS}",  # the helpers: neither a stage nor a device
     "pdr_nodes.qos": "rclpy",
     # `run` turns what a user can mend into one sentence, and a recording that cannot be opened is such a thing
@@ -51,6 +53,7 @@ MAY_IMPORT = {
     # commands see stages through the pipeline only, and of the nodes what reads their messages
     "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich yaml {READS}",
     "pdr_bringup_scripts.listener": f"{BASE} {READS} rclpy ament_index_python pdr_core.recording.bag_writer",
+    "pdr_bringup_scripts.relay": f"{READS} rclpy sensor_msgs",
     # reads back our own messages, which are no recording of samples; the door to those is `open_recording`
     "pdr_bringup_scripts.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline pdr_bringup_scripts.problems",
 }

@@ -30,8 +30,8 @@ def heard(bag: Path, topic: str) -> tuple[np.ndarray, np.ndarray]:
 @full
 @pytest.mark.usefixtures("ros_environment")
 def test_a_minute_live_loses_nothing(tmp_path: Path) -> None:
-    params = changed(Params(), "driver", walk_length_m=LENGTH_M)
-    sent_ns = simulated_walk(params.driver, params.place).imu.stamp_ns
+    params = changed(Params(), "simulation", walk_length_m=LENGTH_M)
+    sent_ns = simulated_walk(params.simulation, params.place).imu.stamp_ns
     assert sent_ns[-1] - sent_ns[0] > 59e9
     run = pdr("demo", "--length", LENGTH_M, "--out", tmp_path / "out")
     assert run.returncode == 0, run.stderr

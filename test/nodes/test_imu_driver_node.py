@@ -3,7 +3,7 @@ import pytest
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import Imu
 
-from pdr_core.params import DriverParams
+from pdr_core.params import SimulationParams
 from pdr_core.records import length
 from pdr_core.simulation import simulated_walk
 from pdr_msgs.srv import SetGyroPower, SetSampleRate
@@ -11,7 +11,7 @@ from pdr_nodes.imu_driver_node import LOOK_S, ImuDriverNode
 from support.bench import Bench
 from support.walks import stamps, straight_walk, write_csv
 
-SIMULATED = {"driver__walk": "still", "driver__sample_rate_hz": 200.0, "driver__rate_factor": 1000.0}
+SIMULATED = {"simulation__walk": "still", "simulation__sample_rate_hz": 200.0, "driver__rate_factor": 1000.0}
 SAMPLES = 1200  # six seconds
 SETTLING_NS = 50_000_000
 
@@ -52,8 +52,10 @@ def measured(samples):
 
 
 def test_it_waits_for_a_subscriber_and_then_gives_everything():
-    params = DriverParams(walk="straight", walk_length_m=1.2, sensor_model="ideal")
-    with Bench(ImuDriverNode, driver__walk="straight", driver__walk_length_m=1.2, driver__rate_factor=1000.0) as bench:
+    params = SimulationParams(walk="straight", walk_length_m=1.2, sensor_model="ideal")
+    with Bench(
+        ImuDriverNode, simulation__walk="straight", simulation__walk_length_m=1.2, driver__rate_factor=1000.0
+    ) as bench:
         for _ in range(5):
             assert bench.node.work() == LOOK_S
             bench.spin()
@@ -78,7 +80,7 @@ def test_a_recording_is_replayed_bit_by_bit(tmp_path):
 
 
 def test_it_keeps_the_pace_that_it_is_given(driver):
-    driver.node._rate_factor = 1e-9
+    driver.node._pace._factor = 1e-9
     driver.work_until(1)
     for _ in range(5):
         assert driver.node.work() == LOOK_S
@@ -138,4 +140,4 @@ def test_calls_at_the_wrong_time_are_refused(driver):
 
 
 def test_the_length_of_the_simulation_is_known():
-    assert length(simulated_walk(DriverParams(walk="still")).imu) == SAMPLES
+    assert length(simulated_walk(SimulationParams(walk="still")).imu) == SAMPLES

@@ -6,7 +6,10 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu
 
+from pdr_core.intake.stamp_faults import NOTICES, Fault
+from pdr_core.records import Level
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
+from pdr_nodes.notice_board import notices_from
 from pdr_nodes.qos import STATUS
 from support.bench import Bench
 from support.walks import BEGIN_NS, imu_messages, stamps, still
@@ -19,9 +22,9 @@ NAMED_WITHIN_S = 3.0
 
 
 def told(diagnostics):
-    """The latest of what the node, named with its namespace, says is wrong: {kind: (level, text)}."""
+    """The latest of what the node, named with its namespace, says is wrong with the samples: {kind: notice}."""
     status = [s for m in diagnostics for s in m.status if s.name.endswith("/imu_ingestion: samples")][-1:]
-    return {item.key: (s.level, item.value) for s in status for item in s.values}
+    return {notice.kind: notice for s in status for notice in notices_from(s.values)}
 
 
 def driven(bench, messages, expected, qos=FOREIGN["BEST_EFFORT"]):
@@ -59,8 +62,26 @@ def test_bad_samples_never_come_out_and_are_named():
     assert stamps(out) == stamps(good)
     values = [[m.angular_velocity.y, m.linear_acceleration.z, *m.angular_velocity_covariance] for m in out]
     assert np.isfinite(values).all()
-    assert {level for level, _ in told(diagnostics).values()} == {b"\x01"}
-    assert told(diagnostics)["not_finite"][1].startswith("2 x ")
+    assert {notice.level for notice in told(diagnostics).values()} == {Level.WARN}
+    assert told(diagnostics)["not_finite"].count == 2
+
+
+def test_what_is_wrong_with_the_stamps_is_named_and_nothing_waits_for_ever():
+    """Ten samples with one stamp, a stray, and a clock that is set an hour ahead with the last sample."""
+    block = still(1.0, BEGIN_NS)
+    block.gyro_radps[:, 0] = np.linspace(0.0, 0.1, 100)
+    block.stamp_ns[40:50] = block.stamp_ns[49]
+    block.stamp_ns[70] -= 10**10
+    block.stamp_ns[99] += 3600 * 10**9
+    with Bench(ImuIngestionNode, node__idle_s=0.4) as bench:
+        out, diagnostics = driven(bench, imu_messages(block), 90)
+        kinds = {"equal_stamps", "stray_stamp", "clock_jumped_forth"}
+        bench.until(lambda: kinds <= set(told(diagnostics)), f"{kinds} on /diagnostics", NAMED_WITHIN_S)
+    assert stamps(out) == np.delete(block.stamp_ns, np.r_[41:50, 70]).tolist()
+    assert (told(diagnostics)["equal_stamps"].count, told(diagnostics)["equal_stamps"].text) == (
+        9,
+        NOTICES[Fault.EQUAL][2],
+    )
 
 
 @pytest.mark.parametrize(
@@ -74,9 +95,8 @@ def test_a_wrong_unit_is_named(field, factor, kind):
     with Bench(ImuIngestionNode) as bench:
         _, diagnostics = driven(bench, imu_messages(block), 150)
         bench.until(lambda: kind in told(diagnostics), f"{kind} on /diagnostics", NAMED_WITHIN_S)
-    level, text = told(diagnostics)[kind]
-    assert level == b"\x02"
-    assert f"set intake.{kind}" in text
+    assert told(diagnostics)[kind].level is Level.ERROR
+    assert f"set intake.{kind}" in told(diagnostics)[kind].text
 
 
 def test_a_sensor_upside_down_is_only_rotated():
@@ -101,4 +121,4 @@ def test_a_gyro_that_is_off_stays_off_and_is_named():
         out, diagnostics = driven(bench, imu_messages(block), 100)
         bench.until(lambda: "gyro_off" in told(diagnostics), "gyro_off on /diagnostics", NAMED_WITHIN_S)
     assert [i for i, m in enumerate(out) if m.angular_velocity_covariance[0] == -1.0] == list(range(30, 60))
-    assert told(diagnostics)["gyro_off"][1].startswith("30 x ")
+    assert told(diagnostics)["gyro_off"].count == 30

@@ -12,7 +12,7 @@ from support.bench import Bench
 from support.processes import node_process
 
 GROUPS_OF = {
-    ImuDriverNode: ("driver", "node"),
+    ImuDriverNode: ("driver", "simulation", "place", "node"),
     ImuIngestionNode: ("intake", "node"),
     StanceDetectorNode: ("stance", "place", "node"),
     ZuptEkfNode: ("filter", "place", "node"),

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
-from pdr_core.params import DriverParams, Params
+from pdr_core.intake.stamp_policy import StampPolicy
+from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
@@ -21,12 +22,18 @@ PARAMS = Params()
 
 
 def troubled_walk():
-    """Return a walk with a gap, a restart of the clock, duplicates, a late sample, NaN, clipped rates and gyro pauses."""
-    sim = simulated_walk(DriverParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
+    """Return a walk with gap, restart, clock set, duplicate, swap, stray, burst, NaN, clipped rates, gyro pauses."""
+    sim = simulated_walk(SimulationParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
     imu = ImuBlock(*(column.copy() for column in sim.imu))
     imu.stamp_ns[450:] += 700_000_000
     imu.stamp_ns[601] = imu.stamp_ns[600]
+    imu.gyro_radps[601], imu.accel_mps2[601] = imu.gyro_radps[600], imu.accel_mps2[600]
+    imu.stamp_ns[610] = imu.stamp_ns[609]
+    imu.stamp_ns[620:622] = imu.stamp_ns[[621, 620]]
+    imu.stamp_ns[630] += 3_600_000_000_000
+    imu.stamp_ns[640:645] = imu.stamp_ns[644] + np.arange(5) * 100_000
     imu.stamp_ns[650] -= 60_000_000
+    imu.stamp_ns[950:] += 7_200_000_000_000
     imu.stamp_ns[800:] -= 30_000_000_000
     imu.accel_mps2[333, 1] = np.nan
     imu.gyro_radps[700:704] = 34.9
@@ -56,6 +63,16 @@ class Intake:
 
     def finish(self):
         return self.stage.finish(), self.stage.notices
+
+
+class Stamps(Intake):
+    def __init__(self):
+        self.stage = StampPolicy(PARAMS.intake)
+
+
+class EvenStamps(Intake):
+    def __init__(self):
+        self.stage = StampPolicy(changed(PARAMS, "intake", constant_rate_hz=101.0).intake)
 
 
 class Stance:
@@ -93,7 +110,14 @@ class Chain:
         return out.nav, [*out.steps, *self.stage.notices]
 
 
-STAGES = {"intake": (Intake, RAW), "stance": (Stance, TRUSTED), "filter": (Filter, JUDGED), "chain": (Chain, RAW)}
+STAGES = {
+    "stamps": (Stamps, RAW),
+    "even_stamps": (EvenStamps, RAW),
+    "intake": (Intake, RAW),
+    "stance": (Stance, TRUSTED),
+    "filter": (Filter, JUDGED),
+    "chain": (Chain, RAW),
+}
 
 
 def columns(block):
@@ -113,7 +137,7 @@ def assert_same(found, expected):
 
 
 WHOLE = {name: run_in_pieces(stage(), block, []) for name, (stage, block) in STAGES.items()}
-CUTS = st.lists(st.integers(0, length(TRUSTED)), max_size=12)
+CUTS = st.lists(st.integers(0, length(RAW)), max_size=12)
 
 
 @pytest.mark.parametrize("name", STAGES)
@@ -131,7 +155,7 @@ def test_sample_by_sample_gives_the_bits_of_the_whole(name):
 
 
 @pytest.mark.parametrize("name", STAGES)
-@given(at=st.integers(0, length(TRUSTED)))
+@given(at=st.integers(0, length(RAW)))
 @settings(max_examples=30)
 def test_a_copy_resumes_anywhere(name, at):
     make, block = STAGES[name]
@@ -173,6 +197,22 @@ def assert_sound(nav, steps):
     np.testing.assert_allclose(np.linalg.norm(nav.quat_xyzw, axis=1), 1.0, atol=1e-9)
     assert all(np.all(np.diagonal(c, axis1=1, axis2=2) >= 0) for c in (nav.pose_covariance, nav.twist_covariance))
     assert all(np.isfinite([s.length_m, s.heading_sd_rad, s.yaw_rad, s.yaw_sd_rad]).all() for s in steps)
+
+
+LEFT_OUT = ("duplicate_stamp", "equal_stamps", "no_stamp", "late_stamp", "stray_stamp")
+
+
+@pytest.mark.parametrize("rate_hz", [0.0, 20.0, 100.0, 4000.0])
+@given(SAMPLES, st.integers(-(2**63), 2**63 - 1))
+@settings(max_examples=100)
+def test_stamps_increase_and_what_is_left_out_is_named(rate_hz, samples, start_ns):
+    policy = StampPolicy(changed(PARAMS, "intake", constant_rate_hz=rate_hz).intake)
+    raw = mad_block(samples, start_ns)
+    out = whole(policy, raw)
+    told = {n.kind: n.count for n in policy.notices}
+    named = sum(told.get(kind, 0) for kind in LEFT_OUT)
+    assert np.count_nonzero(np.diff(out.stamp_ns) <= 0) <= told.get("clock_jumped_back", 0)
+    assert named <= length(raw) - length(out) <= named + told.get("constant_rate", 0)
 
 
 @given(st.integers(0, length(RAW)), SAMPLES, st.integers(-(2**63), 2**63 - 1), st.booleans())

@@ -30,6 +30,8 @@ class Bench:
             self.me = Node("bench", start_parameter_services=False, use_global_arguments=True)
             self.executor.add_node(self.me)
             self.node = self._make_node() if self._make_node else None
+            if self.node:
+                self.node.start()
         except Exception:
             rclpy.shutdown()
             raise

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from pdr_core.intake import Ingestion
-from pdr_core.params import DriverParams, Params
+from pdr_core.params import Params, SimulationParams
 from pdr_core.records import ImuBlock, StanceBlock, joined, length
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.stance import StanceDetection
@@ -24,7 +24,7 @@ sensors:
 
 def straight_walk(strides: int, rate_hz: float = 100.0) -> SimulatedWalk:
     """Return a walk along x that stands for three seconds at both ends."""
-    params = DriverParams(walk="straight", walk_length_m=1.2 * strides, sample_rate_hz=rate_hz)
+    params = SimulationParams(walk="straight", walk_length_m=1.2 * strides, sample_rate_hz=rate_hz)
     return simulated_walk(params, start_ns=BEGIN_NS)
 
 

@@ -20,11 +20,13 @@ def folders(request, tmp_path_factory):
     if "real walk" in request.param:
         recording = request.getfixturevalue("recordings") / "xio_ngimu" / "short_walk.csv"
         rate = 4
+        columns = ()
     else:
         recording, rate = write_csv(folder / "walk.csv", straight_walk(3, rate_hz=200.0).imu), 1
+        columns = ("--columns", recording.with_suffix(".yaml").rename(folder / "mine.yml"))
     commands = {
-        "live": ("replay", recording, "--rate", rate),
-        "offline": ("run", recording),
+        "live": ("replay", recording, "--rate", rate, "--namespace", "left/foot", *columns),
+        "offline": ("run", recording, *columns),
         "again": ("run", folder / "live" / "recording"),
     }
     for name, command in commands.items():

@@ -23,7 +23,7 @@ def demo(
     from pdr_core.params_file import load_params
 
     chosen = load_params(params) if params else Params()
-    changes = {"device": "simulated", "walk_length_m": length, "rate_factor": rate}
-    chosen = changed(chosen, "driver", **changes)
+    chosen = changed(chosen, "driver", device="simulated", rate_factor=rate)
+    chosen = changed(chosen, "simulation", walk_length_m=length)
     folder = out or new_run_folder("demo")
     show_result(live_run(chosen, folder, private_domain(), Terminal()), folder)

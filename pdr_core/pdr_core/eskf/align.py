@@ -6,21 +6,20 @@ from pdr_core.eskf.levelling import levelled
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import norm
-from pdr_core.records import Floats
+from pdr_core.maths.vector import Vector, norm
 
 PLAUSIBLE_GRAVITY = 0.03  # where the specific force of the rest differs by more, gravity is taken from the place
 MOVING_RADPS = 0.5
 
 
 @compiled
-def align(stamp_ns: int, force_mps2: Floats, rate_radps: Floats, s: Settings, state: FilterState) -> None:
+def align(stamp_ns: int, force_mps2: Vector, rate_radps: Vector, s: Settings, state: FilterState) -> None:
     """Take one sample into the mean specific force and level the foot by it."""
     if state.force_samples == 0:
         state.P[:] = np.diag(s.initial_sd**2)
     if state.force_samples == 0 or stamp_ns < state.alignment_start_ns:
         state.alignment_start_ns = stamp_ns
-    state.force_sum_mps2[:] += force_mps2
+    state.force_sum_mps2[:] += np.array(force_mps2)
     state.force_samples += 1
     state.moved = state.moved or norm(rate_radps) > MOVING_RADPS
     mean = state.force_sum_mps2 / state.force_samples

@@ -5,8 +5,8 @@ import numpy as np
 from pdr_core.eskf.error_state import ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import matrix
-from pdr_core.maths.vector import product
+from pdr_core.maths.quaternion import rows
+from pdr_core.maths.vector import Matrix, Triple, Vector, added, column, cross, rotated, transposed
 from pdr_core.records import Floats, NavBlock
 
 UNKNOWN_RATE_SD_RADPS = 10.0  # of a foot whose gyro is off
@@ -30,16 +30,15 @@ def write(out: NavBlock, i: int, state: FilterState) -> None:
     """Write the estimate as sample i of the output."""
     P = state.P
     rate_sd_radps = state.last_gyro_sd_radps if state.last_gyro_sd_radps >= 0.0 else UNKNOWN_RATE_SD_RADPS
-    J = foot_velocity_jacobian(state.quat_xyzw, state.velocity_mps)
-    velocity_covariance = product(product(J, P[VELOCITY : ATTITUDE + 3, VELOCITY : ATTITUDE + 3]), J.T)
+    R_foot_from_world = transposed(rows(state.quat_xyzw))
+    velocity_mps = rotated(R_foot_from_world, state.velocity_mps)
+    velocity_covariance = foot_velocity_covariance(R_foot_from_world, state.velocity_mps, P)
     out.stamp_ns[i] = state.last_ns
     for j in range(4):
         out.quat_xyzw[i, j] = state.quat_xyzw[j]
     for j in range(3):
         out.position_m[i, j] = state.position_m[j]
-        out.velocity_mps[i, j] = (
-            J[j, 0] * state.velocity_mps[0] + J[j, 1] * state.velocity_mps[1] + J[j, 2] * state.velocity_mps[2]
-        )
+        out.velocity_mps[i, j] = velocity_mps[j]
         out.rate_radps[i, j] = state.last_rate_radps[j] - state.gyro_bias_radps[j]
         out.twist_covariance[i, 3 + j, 3 + j] = rate_sd_radps**2
         for k in range(3):
@@ -52,18 +51,23 @@ def write(out: NavBlock, i: int, state: FilterState) -> None:
 
 
 @compiled
-def foot_velocity_jacobian(quat_xyzw: Floats, velocity_mps: Floats) -> Floats:
-    """Return d (velocity in the foot frame) / d (velocity error, attitude error), (3, 6).
-
-    R_true' v_true = R' (I - [attitude x]) (v + velocity error), so the error in the foot frame is
-    R' (velocity error + [v x] attitude error). The first three columns are R', which also turns the velocity itself.
-    """
-    R, v = matrix(quat_xyzw), velocity_mps
-    J = np.empty((3, 6))
+def foot_velocity_covariance(R_foot_from_world: Matrix, velocity_mps: Vector, P: Floats) -> Floats:
+    """Return the covariance (3, 3) of the velocity in the foot frame: J P J' with J as in `foot_velocity_error`."""
+    JP = np.empty((3, ATTITUDE + 3))
+    for j in range(VELOCITY, ATTITUDE + 3):
+        JP[:, j] = foot_velocity_error(R_foot_from_world, velocity_mps, column(P, VELOCITY, j), column(P, ATTITUDE, j))
+    out = np.empty((3, 3))
     for i in range(3):
-        for j in range(3):
-            J[i, j] = R[j, i]
-        J[i, 3] = R[1, i] * v[2] - R[2, i] * v[1]
-        J[i, 4] = R[2, i] * v[0] - R[0, i] * v[2]
-        J[i, 5] = R[0, i] * v[1] - R[1, i] * v[0]
-    return J
+        out[i] = foot_velocity_error(R_foot_from_world, velocity_mps, JP[i, VELOCITY:ATTITUDE], JP[i, ATTITUDE:])
+    return out
+
+
+@compiled
+def foot_velocity_error(
+    R_foot_from_world: Matrix, velocity_mps: Vector, velocity_error: Vector, attitude_error: Vector
+) -> Triple:
+    """Return the error of the velocity in the foot frame.
+
+    R_true' v_true = R' (I - [attitude x]) (v + velocity error), so it is R' (velocity error + v x attitude error).
+    """
+    return rotated(R_foot_from_world, added(velocity_error, cross(velocity_mps, attitude_error)))

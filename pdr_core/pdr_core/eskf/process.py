@@ -17,7 +17,7 @@ import numpy as np
 
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Vector, cross_matrix, mean, product, rotated, scaled
+from pdr_core.maths.vector import Matrix, Rows, Triple, Vector, column, cross, difference, mean, rotated, scaled
 from pdr_core.records import Floats
 
 
@@ -32,43 +32,37 @@ class ProcessNoise(NamedTuple):
 
 
 class Link(NamedTuple):
-    """One interval as the errors see it: the blocks of F."""
+    """One interval as the errors see it: what the blocks of F are made of."""
 
     dt_s: float
     bias_decay: float
-    attitude_to_accel: Floats  # (3, 3)
-    gyro_bias_to_accel: Floats  # (3, 3)
-    mean_R: Floats  # noqa: N815  (3, 3) world from foot
+    force_mps2: Triple  # mean over the interval, in the world frame
+    turned_force_mps: Triple  # force at its end times half its length: what the turn within it acts on
+    mean_R: Rows  # noqa: N815  world from foot
 
 
 @compiled
 def link(
-    R_before: Floats, R_after: Floats, force_before: Vector, force_after: Vector, dt_s: float, correlation_s: float
+    R_before: Matrix, R_after: Matrix, force_before: Vector, force_after: Vector, dt_s: float, correlation_s: float
 ) -> Link:
-    """Return the blocks of F; rotations as `advance` returns them, forces [m/s^2] in the foot frame, without bias."""
+    """Return what F is made of; rotations as `advance` returns them, forces [m/s^2] in the foot frame, without bias."""
     after = rotated(R_after, force_after)
-    attitude_to_accel = cross_matrix(scaled(-1.0, mean(rotated(R_before, force_before), after)))
-    mean_R = 0.5 * (R_before + R_after)
-    gyro_bias_to_accel = product(cross_matrix(scaled(0.5 * dt_s, after)), mean_R)
-    return Link(dt_s, np.exp(-dt_s / correlation_s), attitude_to_accel, gyro_bias_to_accel, mean_R)
+    force = mean(rotated(R_before, force_before), after)
+    mean_R = mean(R_before[0], R_after[0]), mean(R_before[1], R_after[1]), mean(R_before[2], R_after[2])
+    return Link(dt_s, np.exp(-dt_s / correlation_s), force, scaled(0.5 * dt_s, after), mean_R)
 
 
 @compiled
 def carry(k: Link, M: Floats) -> None:
     """Replace M, (15, m), by F M."""
     for j in range(M.shape[1]):
-        attitude = M[ATTITUDE, j], M[ATTITUDE + 1, j], M[ATTITUDE + 2, j]
-        accel_bias = M[ACCEL_BIAS, j], M[ACCEL_BIAS + 1, j], M[ACCEL_BIAS + 2, j]
-        gyro_bias = M[GYRO_BIAS, j], M[GYRO_BIAS + 1, j], M[GYRO_BIAS + 2, j]
+        turn = rotated(k.mean_R, column(M, GYRO_BIAS, j))
+        tilted = difference(cross(k.turned_force_mps, turn), cross(k.force_mps2, column(M, ATTITUDE, j)))
+        accel = difference(tilted, rotated(k.mean_R, column(M, ACCEL_BIAS, j)))
         for i in range(3):
-            accel, turn = 0.0, 0.0
-            for n in range(3):
-                accel += k.attitude_to_accel[i, n] * attitude[n] - k.mean_R[i, n] * accel_bias[n]
-                accel += k.gyro_bias_to_accel[i, n] * gyro_bias[n]
-                turn -= k.mean_R[i, n] * gyro_bias[n]
-            M[POSITION + i, j] += k.dt_s * (M[VELOCITY + i, j] + 0.5 * k.dt_s * accel)
-            M[VELOCITY + i, j] += k.dt_s * accel
-            M[ATTITUDE + i, j] += k.dt_s * turn
+            M[POSITION + i, j] += k.dt_s * (M[VELOCITY + i, j] + 0.5 * k.dt_s * accel[i])
+            M[VELOCITY + i, j] += k.dt_s * accel[i]
+            M[ATTITUDE + i, j] -= k.dt_s * turn[i]
             M[ACCEL_BIAS + i, j] *= k.bias_decay
             M[GYRO_BIAS + i, j] *= k.bias_decay
 

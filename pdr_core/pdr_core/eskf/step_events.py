@@ -1,14 +1,15 @@
 """Steps: from the end of one stance to the end of the next, with the covariance of the displacement.
 
 A stance goes on while the zero-velocity updates are believed; interruptions shorter than the merge time belong to it,
-and longer ones in which the foot neither goes away nor turns: a person who fidgets takes no step. What counts is how far
-the foot was, not where it came down, so a step on the spot is one.
+and longer ones in which the foot neither goes away nor turns: a person who fidgets takes no step. What counts is how
+far the foot was, not where it came down, so a step on the spot is one.
 """
 
 import numpy as np
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
+from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import turn_about_up_rad, yaw_rad
@@ -51,15 +52,16 @@ def stance_is_over(stamp_ns: int, merge_ns: int, state: FilterState) -> bool:
     return state.end_ns[1] != NO_STAMP and abs(stamp_ns - state.end_ns[1]) > merge_ns
 
 
-def step_taken(state: FilterState, step_min_m: float, turn_min_rad: float) -> StepEvent | None:
+def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent | None:
     """Return the step to the end of the stance noted last, from which the next one begins.
 
     None is returned for the first stance, which is where the walk starts, and where the foot was never as far away as
-    `step_min_m` and has not turned by `turn_min_rad`: then it is still the same stance.
+    `step_min_m` and has not turned by `step_turn_min_rad`: then it is still the same stance. `answer_due_ns` is the
+    stamp at which the filter will wait for the heading observation, or NO_STAMP.
     """
     first, step = state.end_ns[0] == NO_STAMP, None
     turn_rad = abs(turn_about_up_rad(state.end_quat_xyzw[0], state.end_quat_xyzw[1]))
-    if not first and (state.excursion_m >= step_min_m or turn_rad >= turn_min_rad):
+    if not first and (state.excursion_m >= s.step_min_m or turn_rad >= s.step_turn_min_rad):
         step = StepEvent(
             index=int(state.step_number),
             start_ns=int(state.end_ns[0]),
@@ -69,6 +71,7 @@ def step_taken(state: FilterState, step_min_m: float, turn_min_rad: float) -> St
             displacement_covariance_m2=state.displacement_covariance.copy(),
             yaw_rad=float(state.end_yaw_rad[1]),
             yaw_sd_rad=float(state.end_yaw_sd_rad[1]),
+            answer_due_ns=answer_due_ns,
         )
     state.step_number += first or step is not None
     begin_next(state)

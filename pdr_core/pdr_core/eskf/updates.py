@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import gravity, zaru, zupt
+from pdr_core.eskf import gravity, heading, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.known_yaw import given_yaw
 from pdr_core.eskf.settings import Settings
@@ -19,7 +19,7 @@ from pdr_core.maths.kalman import (
     normalised_squared,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
-from pdr_core.maths.vector import difference, norm
+from pdr_core.maths.vector import Vector, difference, norm
 from pdr_core.records import Floats
 
 SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a shock
@@ -46,7 +46,7 @@ def inject(state: FilterState, error: Floats) -> None:
 
 
 @compiled
-def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings, state: FilterState) -> bool:
+def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings, state: FilterState) -> bool:
     """Tell the filter that the foot stands, at a measured rate (3,) and with a velocity noise; return if they agree.
 
     A verdict may be wrong, and so may the estimate. An innovation beyond `huber` counts less the larger it is (Huber's
@@ -61,17 +61,15 @@ def zero_velocity(stamp_ns: int, rate_radps: Floats, sd_mps: float, s: Settings,
     d2 = normalised_squared(given)
     state.normalised_innovation = d2
     agrees = d2 <= s.gate
-    if agrees:
-        state.contradicted_s = 0.0
-    else:
-        state.contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
-        if state.contradicted_s > s.release_s:
-            doubt(stamp_ns, norm(residual), state)
-            y, given = weighed(residual, sd_mps, state)
-            d2 = normalised_squared(given)
-        elif norm(residual) > s.gate_speed_mps:
-            state.rejected += 1
-            return False
+    contradicted_s = 0.0 if agrees else float(state.contradicted_s) + min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
+    state.contradicted_s = contradicted_s
+    if contradicted_s > s.release_s:
+        doubt(stamp_ns, norm(residual), state)
+        y, given = weighed(residual, sd_mps, state)
+        d2 = normalised_squared(given)
+    elif not agrees and norm(residual) > s.gate_speed_mps:
+        state.rejected += 1
+        return False
     if d2 > s.huber:
         y, given = weighed(residual, sd_mps * np.sqrt(d2 / s.huber), state)
     else:
@@ -102,7 +100,7 @@ def doubt(stamp_ns: int, speed_mps: float, state: FilterState) -> None:
 
 
 @compiled
-def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState) -> None:
+def zero_rate(rest_rate_radps: Vector, rest_sd_radps: float, state: FilterState) -> None:
     """Tell the filter the gyro bias that a rest has shown."""
     R = np.eye(3) * rest_sd_radps**2
     y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))
@@ -110,7 +108,15 @@ def zero_rate(rest_rate_radps: Floats, rest_sd_radps: float, state: FilterState)
 
 
 @compiled
-def level(force_mps2: Floats, sd_mps: float, state: FilterState) -> None:
+def correct_heading(yaw_error_rad: float, sd_rad: float, state: FilterState) -> None:
+    """Tell the filter by how much its track is turned too far."""
+    R = np.eye(1) * sd_rad**2
+    y = innovation(state.P, heading.H, R, heading.residual(yaw_error_rad))
+    apply(y, heading.H, gain(y), state)
+
+
+@compiled
+def level(force_mps2: Vector, sd_mps: float, state: FilterState) -> None:
     """Tell the filter where up is; the foot stands, with a velocity noise."""
     force = difference(force_mps2, state.accel_bias_mps2)
     R = gravity.noise(sd_mps, state.gravity_mps2)

@@ -2,17 +2,30 @@
 
 import numpy as np
 
-from pdr_core.conventions import NO_STAMP
+from pdr_core.conventions import NANOSECONDS, NO_STAMP
 from pdr_core.eskf import health
+from pdr_core.eskf.answers import NOTHING_DUE_NS, Answers
 from pdr_core.eskf.configure import settings
-from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, POSITION
+from pdr_core.eskf.handover import handed_over, initial_deviations
 from pdr_core.eskf.navigate import navigate
 from pdr_core.eskf.output import empty_nav
 from pdr_core.eskf.state import FilterState, fresh_state
 from pdr_core.eskf.step_events import step_taken
+from pdr_core.eskf.updates import correct_heading
 from pdr_core.maths.quaternion import yaw_rad
 from pdr_core.params import FilterParams, PlaceParams
-from pdr_core.records import FilterHealth, NavBlock, Notice, PoseEstimate, StanceBlock, StepEvent, length
+from pdr_core.records import (
+    FilterHealth,
+    Handover,
+    HeadingObservation,
+    NavBlock,
+    Notice,
+    StanceBlock,
+    StepEvent,
+    joined,
+    length,
+    part,
+)
 
 
 class ZuptFilter:
@@ -21,25 +34,66 @@ class ZuptFilter:
     def __init__(self, params: FilterParams, place: PlaceParams) -> None:
         self._settings = settings(params, place)
         self._usual_sd = self._settings.initial_sd
+        self.asks = params.heading_feedback
+        self._answer_due_ns = round(params.heading_due_s * NANOSECONDS)
+        self._answers = Answers()
+        self._held: StanceBlock | None = None  # samples behind one that waits for an answer
         self._resets = 0
         self.state: FilterState = fresh_state()
         self.state.P[:] = np.diag(self._usual_sd**2)
 
     def run(self, block: StanceBlock) -> tuple[NavBlock, list[StepEvent]]:
-        """Return an estimate for every sample, and the steps that are certain with them."""
+        """Return an estimate of each sample up to one that must wait for an answer, and the steps certain with them."""
+        block, self._held = joined([self._held, block]) if self._held else block, None
         nav, steps, done = empty_nav(length(block)), [], 0
         while done < length(block):
-            done, stance_is_over = navigate(block, done, self._settings, self.state, nav)
+            done, stance_is_over = navigate(block, done, self._stop_ns, self._settings, self.state, nav)
             if stance_is_over:
-                steps += self._step_taken()
+                steps += self._step_taken(int(block.imu.stamp_ns[done]))
+            elif done < length(block) and not self._heading_corrected(int(block.imu.stamp_ns[done])):
+                self._held = part(block, done)
+                return part(nav, 0, done), steps
         return nav, steps
 
     def finish(self) -> list[StepEvent]:
         """Return the step that ends in the stance which the recording ends in, if it does."""
-        return self._step_taken() if self.state.end_ns[1] != NO_STAMP else []
+        return self._step_taken(int(self.state.last_ns)) if self.state.end_ns[1] != NO_STAMP else []
 
-    def _step_taken(self) -> list[StepEvent]:
-        step = step_taken(self.state, self._settings.step_min_m, self._settings.step_turn_min_rad)
+    def answer(self, observation: HeadingObservation) -> None:
+        """Take the answer to a step; `resume` goes on with what waited for it."""
+        self._answers.take(observation)
+
+    def give_up_answers(self) -> None:
+        """Take the missing answers as empty."""
+        self._answers.give_up()
+
+    def resume(self) -> tuple[NavBlock, list[StepEvent]]:
+        """Go on with the samples that waited; return what `run` does."""
+        held, self._held = self._held, None
+        return self.run(held) if held else (empty_nav(0), [])
+
+    @property
+    def waits(self) -> bool:
+        """Samples wait for an answer."""
+        return self._held is not None
+
+    @property
+    def _stop_ns(self) -> int:
+        return self._answers.next_ns if self.asks else NOTHING_DUE_NS
+
+    def _heading_corrected(self, stamp_ns: int) -> bool:
+        """Apply the answers that are due; return False where one is missing."""
+        if self._answers.missing(stamp_ns):
+            return False
+        for answer in self._answers.applying(stamp_ns):
+            correct_heading(answer.yaw_error_rad, answer.yaw_error_sd_rad, self.state)
+        return True
+
+    def _step_taken(self, known_ns: int) -> list[StepEvent]:
+        due_ns = known_ns + self._answer_due_ns if self.asks else NO_STAMP
+        step = step_taken(self.state, self._settings, due_ns)
+        if step and self.asks:
+            self._answers.ask(step)
         return [step] if step else []
 
     @property
@@ -50,20 +104,25 @@ class ZuptFilter:
     @property
     def notices(self) -> list[Notice]:
         """What was wrong so far."""
-        return health.notices(self.state)
+        return health.notices(self.state) + self._answers.notices
 
-    def reset(self, pose: PoseEstimate, keep_biases: bool) -> None:
-        """Start anew at a pose: the foot is levelled there by the next samples, so it should stand still."""
-        before, self._resets = self.state, self._resets + 1
-        yaw = yaw_rad(before.quat_xyzw) if pose.quat_xyzw is None else yaw_rad(pose.quat_xyzw)
-        sd = self._usual_sd.copy()
-        sd[POSITION : POSITION + 3] = np.sqrt(np.diag(pose.covariance)[:3])
-        sd[ATTITUDE + 2] = np.sqrt(pose.covariance[5, 5])
+    @property
+    def handover(self) -> Handover:
+        """The estimate, for another estimator that goes on from it."""
+        return handed_over(self.state)
+
+    def reset(self, start: Handover) -> None:
+        """Start anew where another estimator ended: the foot is levelled there, so it should stand still.
+
+        A pose without a quaternion keeps the yaw; biases of None are those that any sensor may bring.
+        """
+        quat_xyzw = self.state.quat_xyzw if start.pose.quat_xyzw is None else start.pose.quat_xyzw
+        sd = initial_deviations(start, self._usual_sd)
+        self._settings = self._settings._replace(initial_yaw_rad=yaw_rad(quat_xyzw), initial_sd=sd)
+        self._answers, self._held, self._resets = Answers(), None, self._resets + 1
         self.state = fresh_state()
-        self.state.position_m[:] = pose.position_m
-        if keep_biases:
-            sd[ACCEL_BIAS:] = np.sqrt(np.diag(before.P)[ACCEL_BIAS:])
-            self.state.accel_bias_mps2[:] = before.accel_bias_mps2
-            self.state.gyro_bias_radps[:] = before.gyro_bias_radps
+        self.state.position_m[:] = start.pose.position_m
         self.state.P[:] = np.diag(sd**2)
-        self._settings = self._settings._replace(initial_yaw_rad=yaw, initial_sd=sd)
+        if start.biases:
+            self.state.accel_bias_mps2[:] = start.biases.accel_mps2
+            self.state.gyro_bias_radps[:] = start.biases.gyro_radps

@@ -1,6 +1,7 @@
 """Laying one track onto another by a turn about the vertical and a shift, the freedoms an unaided track really has.
 
-Gravity makes roll and pitch observable, so they are never fitted. Rows are positions [m], (n, 2) or (n, 3), z up.
+Gravity makes roll and pitch observable, so they are not fitted, except to match other tools. Rows are
+positions [m], (n, 2) or (n, 3), z up.
 """
 
 import math
@@ -36,6 +37,28 @@ def at_start(moving_m: Floats, fixed_m: Floats, start_path_m: float) -> Alignmen
     steps_m = np.linalg.norm(np.diff(fixed_m[:, :2], axis=0), axis=1)
     rows = 1 + max(1, int(np.searchsorted(np.cumsum(steps_m), start_path_m, side="right")))
     return _about(moving_m[:rows], moving_m[0], fixed_m[:rows], fixed_m[0])
+
+
+class RigidAlignment(NamedTuple):
+    """Any turn, then a shift."""
+
+    R_fixed_from_moving: Floats  # (3, 3)
+    shift_m: Floats  # (3,)
+
+    def apply(self, position_m: Floats) -> Floats:
+        """Return the positions, (n, 3), in the frame of the other track."""
+        return position_m @ self.R_fixed_from_moving.T + self.shift_m
+
+
+def rigid(moving_m: Floats, fixed_m: Floats) -> RigidAlignment:
+    """Return the least-squares turn and shift in space over all rows, (n, 3) (Umeyama 1991 eq. 38-43 without scale).
+
+    It turns roll and pitch too, which no track of ours is free in: for comparison with others only.
+    """
+    moving_mean, fixed_mean = moving_m.mean(axis=0), fixed_m.mean(axis=0)
+    U, _, Vt = np.linalg.svd((fixed_m - fixed_mean).T @ (moving_m - moving_mean))
+    R = U @ np.diag([1.0, 1.0, np.sign(np.linalg.det(U) * np.linalg.det(Vt))]) @ Vt
+    return RigidAlignment(R, fixed_mean - R @ moving_mean)
 
 
 def _about(moving_m: Floats, moving_pivot_m: Floats, fixed_m: Floats, fixed_pivot_m: Floats) -> Alignment:

@@ -43,6 +43,12 @@ class ClipRepair:
         clipped = waiting.clipped[self._given : stop]
         first = max(0, stop - CONTEXT)
         self._samples, self._given = part(samples, first), stop - first
-        kept = [column[first:] for column in waiting[:4]]
-        self._waiting = Waiting(*kept, undecided=waiting.undecided - first, seen=waiting.seen)
+        self._waiting = Waiting(
+            waiting.stamp_ns[first:],
+            waiting.measured[first:],
+            waiting.repaired[first:],
+            waiting.clipped[first:],
+            waiting.undecided - first,
+            waiting.seen,
+        )
         return out, clipped

@@ -3,11 +3,15 @@
 import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import within
 from pdr_core.notices import Tally
-from pdr_core.records import ImuBlock, Level
+from pdr_core.records import Flags, Floats, ImuBlock, Level
 
 FIRST_LOOK_S = 1.0
 IMPOSSIBLE_RATE_RADPS = 60.0  # 3400 deg/s: no foot turns so fast, and hardly any gyro reaches it
+
+ABSURD = 1e6  # no sensor shows so much, in whatever unit, and the square of much more would drown all else
 
 
 class Plausibility:
@@ -38,6 +42,15 @@ class Plausibility:
             text = verdict_on_norm(float(np.median(self._norms_mps2)))
             if text:
                 tally.add("accel_unit", Level.ERROR, text, self._start_ns)
+
+
+@compiled
+def plausible(gyro: Floats, accel: Floats) -> Flags:
+    """Return which samples, (n, 3) each in whatever unit, hold nothing but numbers that a sensor may show, (n,)."""
+    good = np.empty(gyro.shape[0], np.bool_)
+    for i in range(gyro.shape[0]):
+        good[i] = within(gyro[i], ABSURD) and within(accel[i], ABSURD)
+    return good
 
 
 def verdict_on_norm(norm_mps2: float) -> str:

@@ -22,7 +22,8 @@ class Innovation(NamedTuple):
 def innovation(P: Floats, H: Floats, R: Floats, residual: Floats) -> Innovation:
     """Return the innovation of a measurement with Jacobian H (m, n) and noise R (m, m) on the covariance P (n, n)."""
     HP = product(H, P)
-    S = product(HP, H.T) + R
+    S = product(H, HP.T)
+    S += R
     return Innovation(residual, HP, S, inverse_positive(S))
 
 
@@ -45,7 +46,7 @@ def normalised_squared(y: Innovation) -> float:
 @compiled
 def gain(y: Innovation) -> Floats:
     """Return the optimal gain K = P H' S^-1, (n, m) (Gui eq. 20, Zhou eq. 13)."""
-    return product(y.HP.T, y.S_inverse)
+    return product(y.S_inverse, y.HP).T
 
 
 @compiled
@@ -56,14 +57,13 @@ def correct(P: Floats, K: Floats, y: Innovation) -> None:
     holds for the optimal gain alone. Multiplied out it is P - K HP - (K HP)' + K S K', and with B = HP - S K' / 2 it is
     P - K B - (K B)': symmetric by construction, at a tenth of the cost.
     """
-    B = y.HP - 0.5 * product(y.S, K.T)
-    for i in range(P.shape[0]):
-        for j in range(i + 1):
-            total = P[i, j]
-            for m in range(y.S.shape[0]):
-                total -= K[i, m] * B[m, j] + K[j, m] * B[m, i]
-            P[i, j] = total
-            P[j, i] = total
+    B = product(y.S, K.T)
+    B *= -0.5
+    B += y.HP
+    for m in range(K.shape[1]):
+        for i in range(P.shape[0]):
+            for j in range(P.shape[0]):
+                P[i, j] -= K[i, m] * B[m, j] + K[j, m] * B[m, i]
 
 
 @compiled
@@ -80,7 +80,7 @@ def estimated_error(K: Floats, y: Innovation) -> Floats:
 def correct_cross(C: Floats, K: Floats, H: Floats) -> None:
     """Replace C, (n, k), the covariance of the state with something that is not corrected, by (I - K H) C."""
     HC = product(H, C)
-    for i in range(C.shape[0]):
-        for j in range(C.shape[1]):
-            for m in range(K.shape[1]):
+    for m in range(K.shape[1]):
+        for i in range(C.shape[0]):
+            for j in range(C.shape[1]):
                 C[i, j] -= K[i, m] * HC[m, j]

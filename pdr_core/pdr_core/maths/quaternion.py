@@ -6,7 +6,7 @@ The functions take anything with four (or three) numbers and return tuples, whic
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Vector
+from pdr_core.maths.vector import Rows, Vector
 from pdr_core.records import Floats
 
 Four = tuple[float, float, float, float]
@@ -41,16 +41,20 @@ def normalised(q: Quaternion) -> Four:
 
 
 @compiled
-def matrix(q: Quaternion) -> Floats:
-    """Return the rotation matrix (3, 3) of a unit quaternion."""
+def rows(q: Quaternion) -> Rows:
+    """Return the rotation matrix of a unit quaternion, by rows."""
     x, y, z, w = q[0], q[1], q[2], q[3]
-    return np.array(
-        [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
-            [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
-            [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
-        ]
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+        (2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+        (2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
     )
+
+
+@compiled
+def matrix(q: Quaternion) -> Floats:
+    """Return the rotation matrix of a unit quaternion as an array (3, 3)."""
+    return np.array(rows(q))
 
 
 @compiled

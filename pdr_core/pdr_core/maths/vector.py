@@ -1,6 +1,7 @@
 """Small vectors and matrices in compiled code, without the cost of general linear algebra.
 
-Vectors of three are returned as tuples, which cost nothing in compiled code.
+Vectors of three and (3, 3) matrices are returned as tuples, which cost nothing in compiled code; an array must be
+allocated.
 """
 
 import numpy as np
@@ -10,22 +11,32 @@ from pdr_core.records import Floats
 
 Triple = tuple[float, float, float]
 Vector = Triple | Floats  # three numbers
+Rows = tuple[Triple, Triple, Triple]
+Matrix = Rows | Floats  # (3, 3)
 
 
 @compiled
-def cross_matrix(v: Vector) -> Floats:
-    """Return [v x], (3, 3), so that [v x] u = v x u."""
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+def dot(u: Vector, v: Vector) -> float:
+    """Return u' v."""
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 @compiled
-def rotated(R: Floats, v: Vector) -> Triple:
-    """Return R v for a (3, 3) matrix and a vector."""
-    return (
-        R[0, 0] * v[0] + R[0, 1] * v[1] + R[0, 2] * v[2],
-        R[1, 0] * v[0] + R[1, 1] * v[1] + R[1, 2] * v[2],
-        R[2, 0] * v[0] + R[2, 1] * v[1] + R[2, 2] * v[2],
-    )
+def cross(u: Vector, v: Vector) -> Triple:
+    """Return u x v."""
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+@compiled
+def rotated(R: Matrix, v: Vector) -> Triple:
+    """Return R v."""
+    return dot(R[0], v), dot(R[1], v), dot(R[2], v)
+
+
+@compiled
+def transposed(R: Matrix) -> Rows:
+    """Return R', which for a rotation is the inverse."""
+    return (R[0][0], R[1][0], R[2][0]), (R[0][1], R[1][1], R[2][1]), (R[0][2], R[1][2], R[2][2])
 
 
 @compiled
@@ -50,9 +61,27 @@ def mean(u: Vector, v: Vector) -> Triple:
 
 
 @compiled
+def added(u: Vector, v: Vector) -> Triple:
+    """Return u + v."""
+    return u[0] + v[0], u[1] + v[1], u[2] + v[2]
+
+
+@compiled
 def difference(u: Vector, v: Vector) -> Triple:
     """Return u - v."""
     return u[0] - v[0], u[1] - v[1], u[2] - v[2]
+
+
+@compiled
+def row(M: Floats, i: int) -> Triple:
+    """Return row i of (n, 3)."""
+    return M[i, 0], M[i, 1], M[i, 2]
+
+
+@compiled
+def column(M: Floats, row: int, j: int) -> Triple:
+    """Return three numbers of column j, from a row on."""
+    return M[row, j], M[row + 1, j], M[row + 2, j]
 
 
 @compiled
@@ -72,6 +101,12 @@ def product(A: Floats, B: Floats) -> Floats:
 def norm(v: Vector) -> float:
     """Return the Euclidean length."""
     return np.sqrt(v[0] ** 2 + v[1] ** 2 + v[2] ** 2)
+
+
+@compiled
+def within(v: Vector, bound: float) -> bool:
+    """Return whether every magnitude is below the bound; NaN never is."""
+    return abs(v[0]) < bound and abs(v[1]) < bound and abs(v[2]) < bound
 
 
 @compiled

@@ -1,11 +1,21 @@
 """One foot, one IMU: intake, stance detection, error-state filter."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
-from pdr_core.records import ImuBlock, NavBlock, Notice, StanceBlock, StepEvent, joined
+from pdr_core.records import (
+    HeadingObservation,
+    HeadingSource,
+    ImuBlock,
+    NavBlock,
+    Notice,
+    StanceBlock,
+    StepEvent,
+    joined,
+)
 from pdr_core.stance import StanceDetection
 
 
@@ -18,26 +28,45 @@ class FootOutput:
     steps: list[StepEvent]
 
 
-class FootInertial:
-    """Samples in, estimates and steps out."""
+Heading = Callable[[StepEvent], HeadingObservation]
 
-    def __init__(self, params: Params) -> None:
+
+def nothing_to_say(step: StepEvent) -> HeadingObservation:
+    """Return the empty answer to a step."""
+    return HeadingObservation(step.index, step.stamp_ns, step.answer_due_ns, HeadingSource.NONE, 0.0, 0.0)
+
+
+class FootInertial:
+    """Samples in, estimates and steps out. Where the filter asks for heading observations, `heading` gives them."""
+
+    def __init__(self, params: Params, heading: Heading = nothing_to_say) -> None:
         self._intake = Ingestion(params.intake)
         self._stance = StanceDetection(params.stance, params.place)
         self._filter = ZuptFilter(params.filter, params.place)
+        self._heading = heading
 
     def run(self, raw: ImuBlock) -> FootOutput:
         """Take the next samples, any number of them."""
-        trusted = self._intake.run(raw)
-        judged = self._stance.run(trusted)
-        nav, steps = self._filter.run(judged)
+        judged = self._stance.run(self._intake.run(raw))
+        nav, steps = self._estimated(judged)
         return FootOutput(judged, nav, steps)
 
     def finish(self) -> FootOutput:
         """Give out what still waits for later samples: there will be none."""
         judged = joined([self._stance.run(self._intake.finish()), self._stance.finish()])
-        nav, steps = self._filter.run(judged)
+        nav, steps = self._estimated(judged)
         return FootOutput(judged, nav, steps + self._filter.finish())
+
+    def _estimated(self, judged: StanceBlock) -> tuple[NavBlock, list[StepEvent]]:
+        """Run the filter, and again with each answer, until nothing waits for one."""
+        nav, steps = self._filter.run(judged)
+        pieces, unanswered = [nav], steps
+        while self._filter.asks and unanswered:
+            for step in unanswered:
+                self._filter.answer(self._heading(step))
+            nav, unanswered = self._filter.resume()
+            pieces, steps = [*pieces, nav], steps + unanswered
+        return joined(pieces) if len(pieces) > 1 else nav, steps
 
     @property
     def notices(self) -> list[Notice]:

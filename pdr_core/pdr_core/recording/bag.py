@@ -1,4 +1,4 @@
-"""Opens rosbag2 recordings: every sensor_msgs/Imu topic is a sensor, every ground_truth topic a truth."""
+"""Opens rosbag2 recordings and ROS 1 bags: every sensor_msgs/Imu topic is a sensor, each ground_truth topic a truth."""
 
 from collections.abc import Iterable
 from contextlib import suppress
@@ -8,16 +8,18 @@ from typing import Any
 
 from pdr_core.recording.bag_messages import BagReader
 from pdr_core.recording.bag_storage import SUFFIXES, open_storage
+from pdr_core.recording.ros1_storage import SUFFIX as ROS1
 from pdr_core.recording.session import RecordingError, Sensor, Session, put_warning
 from pdr_core.records import Notice, Truth
 
 IMU = "sensor_msgs/msg/Imu"
 POSES = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"}
+FORMATS = SUFFIXES | {ROS1: "ros1"}
 TRUTH, RAW, COOKED = "/ground_truth", "/data_raw", "/data"
 
 
 def open_bag_session(path: Path) -> Session:
-    """Open a rosbag2 directory, .mcap or .db3 file; RecordingError if it holds no sensor_msgs/Imu topic."""
+    """Open a rosbag2 directory, .mcap, .db3 or .bag file; RecordingError if it holds no sensor_msgs/Imu topic."""
     notices: list[Notice] = []
     files = _files(path, notices) if path.is_dir() else [path]
     bag = BagReader([open_storage(file) for file in files], notices)
@@ -28,7 +30,7 @@ def open_bag_session(path: Path) -> Session:
     truths = {t.removesuffix(TRUTH): t for t, msgtype in topics.items() if t.endswith(TRUTH) and msgtype in POSES}
     sensors = {name: Sensor(name, _truth(bag, t, truths), partial(bag.imu_blocks, t)) for name, t in imus.items()}
     name = path.name if path.is_dir() else path.stem
-    return Session(name, path, SUFFIXES.get(files[0].suffix, "rosbag2"), sensors, notices)
+    return Session(name, path, FORMATS.get(files[0].suffix, "rosbag2"), sensors, notices)
 
 
 def sensor_names(topics: Iterable[str]) -> dict[str, str]:

@@ -18,8 +18,12 @@ class Storage(NamedTuple):
 def open_storage(path: Path) -> Storage:
     """Open a bag file, or a directory that must be read as a whole, whatever its state; nothing readable: no topics."""
     from pdr_core.recording.mcap_salvage import salvaged_mcap
+    from pdr_core.recording.ros1_storage import SUFFIX as ROS1
+    from pdr_core.recording.ros1_storage import ros1_messages
     from pdr_core.recording.sqlite_salvage import ends_within_page, salvaged_sqlite
 
+    if path.suffix == ROS1:
+        return Storage(path, *ros1_messages(path))
     if path.suffix == ".db3" and ends_within_page(path):
         return Storage(path, *salvaged_sqlite(path))
     try:

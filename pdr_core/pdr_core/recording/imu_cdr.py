@@ -1,13 +1,15 @@
-"""Decodes sensor_msgs/Imu many messages at a time, several times as fast as one by one."""
+"""Between sensor_msgs/Imu and blocks, many messages at a time: several times as fast as one by one."""
 
 import numpy as np
 
 from pdr_core.conventions import NANOSECONDS
+from pdr_core.recording.stamped_cdr import LITTLE_ENDIAN, encoded, stamped_layout
 from pdr_core.records import Floats, ImuBlock
 
 NUMBERS = 37  # orientation 4 + 9, angular rate 3 + 9, acceleration 3 + 9: each with its covariance
-RATE, ACCELERATION = 13, 25
-LITTLE_ENDIAN = b"\x00\x01"
+ORIENTATION, RATE, ACCELERATION = 0, 13, 25
+VARIANCES = [3, 7, 11]  # of a vector's axes, counted from the vector
+ORIENTATION_COVARIANCE = 4
 
 
 def imu_block_from_cdr(messages: list[bytes]) -> ImuBlock | None:
@@ -27,21 +29,26 @@ def imu_block_from_cdr(messages: list[bytes]) -> ImuBlock | None:
     return ImuBlock(stamp_ns, gyro, accel, gyro_sd, accel_sd)
 
 
+def cdr_from_imu_block(block: ImuBlock, frame_id: str) -> list[bytes]:
+    """Return n messages without an orientation; OverflowError if a stamp does not fit into a ROS message."""
+    numbers = np.zeros((len(block.stamp_ns), NUMBERS))
+    numbers[:, ORIENTATION + ORIENTATION_COVARIANCE] = -1.0
+    for start, vectors, sd in ((RATE, block.gyro_radps, block.gyro_sd_radps),
+                               (ACCELERATION, block.accel_mps2, block.accel_sd_mps2)):  # fmt: skip
+        numbers[:, start : start + 3] = vectors
+        numbers[:, [start + axis for axis in VARIANCES]] = np.where(sd < 0.0, 0.0, sd**2)[:, None]
+        numbers[sd < 0.0, start + 3] = -1.0
+    return encoded(block.stamp_ns, numbers, frame_id)
+
+
 def _layout(message: bytes) -> np.dtype | None:
     """Return where the fields of a message are, None if it is not as long as they ask for."""
-    order = "<" if message[:2] == LITTLE_ENDIAN else ">"
-    frame_bytes = int.from_bytes(message[12:16], "little" if order == "<" else "big")
-    numbers = 4 + (12 + frame_bytes + 7) // 8 * 8  # aligned to 8 after the 4 bytes that say how it is encoded
-    if len(message) != numbers + 8 * NUMBERS:
+    little = message[:2] == LITTLE_ENDIAN
+    frame_bytes = int.from_bytes(message[12:16], "little" if little else "big")
+    if frame_bytes > len(message):
         return None
-    fields = {
-        "kind": ("S2", 0),
-        "sec": (f"{order}i4", 4),
-        "nanosec": (f"{order}u4", 8),
-        "numbers": (f"({NUMBERS},){order}f8", numbers),
-    }
-    formats, offsets = zip(*fields.values(), strict=True)
-    return np.dtype({"names": list(fields), "formats": formats, "offsets": offsets, "itemsize": len(message)})
+    layout = stamped_layout("<" if little else ">", frame_bytes, NUMBERS)
+    return layout if layout.itemsize == len(message) else None
 
 
 def _measured(numbers: Floats, start: int) -> tuple[Floats, Floats]:

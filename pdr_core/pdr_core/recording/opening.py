@@ -6,16 +6,16 @@ from pdr_core.recording.bag import open_bag_session
 from pdr_core.recording.session import RecordingError, Session
 from pdr_core.recording.table_session import open_table_session
 
-BAGS = {".mcap", ".db3"}
+BAGS = {".mcap", ".db3", ".bag"}
 TABLES = {".mat", ".csv", ".tsv", ".txt"}
 
 
 def open_recording(path: Path | str, column_map: Path | None = None) -> Session:
     """Open a recording of any known format; RecordingError says in one sentence what to do where that fails.
 
-    `path` is a rosbag2 directory, a bare .mcap or .db3 file, or a text or .mat file. `column_map` is a YAML file
-    that names the columns of a text or .mat file; without it `<recording>.yaml` or `pdr_columns.yaml` beside the
-    recording is used, and without those the formats that pdr knows.
+    `path` is a rosbag2 directory, a bare .mcap or .db3 file, a ROS 1 .bag, or a text or .mat file. `column_map` is a
+    YAML file that names the columns of a text or .mat file; without it `<recording>.yaml` or `pdr_columns.yaml` beside
+    the recording is used, and without those the formats that pdr knows.
     """
     session = _opened(Path(path), column_map)
     if all(next(sensor.pieces(1), None) is None for sensor in session.sensors.values()):
@@ -31,8 +31,6 @@ def _opened(path: Path, column_map: Path | None) -> Session:
     suffix = path.suffix.lower()
     if path.is_dir() or suffix in BAGS:
         return open_bag_session(path)
-    if suffix == ".bag":
-        raise RecordingError(f"{path} is a ROS 1 bag: convert it with `rosbags-convert --src {path} --dst <folder>`.")
     if suffix in TABLES:
         return open_table_session(path, column_map)
     known = ", ".join(sorted(BAGS | TABLES))

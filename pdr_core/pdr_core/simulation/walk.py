@@ -1,58 +1,81 @@
 """Whole simulated walks by name."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pdr_core.conventions import gravity_mps2, stamp_ns_from_seconds
-from pdr_core.params import DriverParams, PlaceParams
+from pdr_core.conventions import gravity_mps2, seconds_between, stamp_ns_from_seconds
+from pdr_core.maths import quaternion
+from pdr_core.maths.vector import each_rotated
+from pdr_core.params import PlaceParams, SimulationParams
 from pdr_core.records import Floats, ImuBlock, Truth, TruthKind
-from pdr_core.simulation.foot_motion import STEP_LENGTH_M, FootMotion, Phase, move, steps, turn
-from pdr_core.simulation.imu_model import SENSOR_MODELS, measure, orientation
-
-REST_S = 3.0  # standing still at both ends
+from pdr_core.simulation.courses import foot_course, gui_course
+from pdr_core.simulation.imu_model import SENSOR_MODELS, SensorModel, earth_in_foot, point_samples, sensed
+from pdr_core.simulation.motion import Course, Motion
+from pdr_core.simulation.shocks import shocks_mps2
 
 
 @dataclass(frozen=True)
 class SimulatedWalk:
-    """What the sensor measured and where the foot really was."""
+    """What the sensor measured, in its own axes, and where the foot really was."""
 
     imu: ImuBlock
-    motion: FootMotion
-    quat_xyzw: Floats  # (n, 4) true attitude
+    motion: Motion
     truth: Truth
 
 
-def simulated_walk(params: DriverParams, place: PlaceParams | None = None, start_ns: int = 0) -> SimulatedWalk:
-    """Simulate the walk that the parameters name; its first sample is stamped `start_ns`."""
-    where = place or PlaceParams()
-    phases = all_phases(params)
-    time_s: Floats = np.arange(0.0, walk_duration_s(params), 1.0 / params.sample_rate_hz, dtype=np.float64)
-    stamp_ns = stamp_ns_from_seconds(time_s) + start_ns
-    motion = move(phases, time_s)
-    gravity = gravity_mps2(np.radians(where.latitude_deg), where.height_m)
-    imu = measure(motion, stamp_ns, params.sample_rate_hz, gravity, SENSOR_MODELS[params.sensor_model], params.seed)
-    truth = Truth(TruthKind.POSITION, stamp_ns, motion.position_m)
-    return SimulatedWalk(imu, motion, orientation(motion).as_quat(), truth)
+def simulated_walk(
+    params: SimulationParams, place: PlaceParams | None = None, start_ns: int = 0, model: SensorModel | None = None
+) -> SimulatedWalk:
+    """Simulate the walk that the parameters name; its first sample is stamped `start_ns`.
+
+    `model` is a sensor in place of the one that they name. ParameterError if motion and walk do not go together.
+    """
+    path = course(params)
+    rate_hz = params.sample_rate_hz
+    stamp_ns = stamp_ns_from_seconds(np.arange(round(path.duration_s * rate_hz)) / rate_hz) + start_ns
+    time_s = seconds_between(stamp_ns, start_ns)
+    motion = path.at(time_s)
+    gyro, accel = felt(params, place or PlaceParams(), motion)
+    if params.shock_mps2 > 0.0:
+        accel = accel + shocks_mps2(time_s, path.strikes_s, params.shock_mps2, params.seed)
+    chosen = ranged(model or SENSOR_MODELS[params.sensor_model], params)
+    imu = sensed(stamp_ns, in_sensor_axes(params, gyro), in_sensor_axes(params, accel), rate_hz, chosen, params.seed)
+    return SimulatedWalk(imu, motion, Truth(TruthKind.POSITION, stamp_ns, motion.position_m))
 
 
-def all_phases(params: DriverParams) -> list[Phase]:
-    """Return the phases of a walk that begins and ends at rest."""
-    return [Phase(REST_S), *walk_phases(params.walk, params.walk_length_m), Phase(REST_S)]
+def course(params: SimulationParams) -> Course:
+    """Return the motion that the parameters name; ParameterError if it has no such walk."""
+    if params.motion == "gui":
+        return gui_course(params.walk, params.walk_length_m)
+    return foot_course(params.walk, params.walk_length_m, params.pace)
 
 
-def walk_duration_s(params: DriverParams) -> float:
+def walk_duration_s(params: SimulationParams) -> float:
     """Return how long the walk takes [s]."""
-    return sum(phase.duration_s for phase in all_phases(params))
+    return course(params).duration_s
 
 
-def walk_phases(name: str, length_m: float) -> list[Phase]:
-    """Return the phases of a walk of about `length_m`, in whole steps."""
-    if name == "still":
-        return []
-    if name == "straight":
-        return steps(max(1, round(length_m / STEP_LENGTH_M)))
-    long_side = max(1, round(length_m / STEP_LENGTH_M / 3.0))
-    short_side = max(1, round(length_m / STEP_LENGTH_M / 2.0) - long_side)
-    corner = turn(np.pi / 2.0)
-    return (steps(long_side) + corner + steps(short_side) + corner) * 2
+def felt(params: SimulationParams, place: PlaceParams, motion: Motion) -> tuple[Floats, Floats]:
+    """Return the true rate and specific force in the foot frame, (n, 3) each."""
+    latitude_rad = float(np.radians(place.latitude_deg))
+    gyro, accel = point_samples(motion, gravity_mps2(latitude_rad, place.height_m))
+    return gyro + earth_in_foot(motion, latitude_rad) if params.earth_rate else gyro, accel
+
+
+def in_sensor_axes(params: SimulationParams, vectors: Floats) -> Floats:
+    """Return vectors of the foot frame along the axes of the sensor, (n, 3): the intake's mounting undoes it."""
+    p = params
+    R_foot_from_sensor = quaternion.matrix(
+        quaternion.from_euler(p.mounting_roll_rad, p.mounting_pitch_rad, p.mounting_yaw_rad)
+    )
+    return each_rotated(np.ascontiguousarray(R_foot_from_sensor.T), vectors)
+
+
+def ranged(model: SensorModel, params: SimulationParams) -> SensorModel:
+    """Return the sensor with the ranges that the parameters give; 0 leaves its own."""
+    return replace(
+        model,
+        gyro_range_radps=params.gyro_range_radps or model.gyro_range_radps,
+        accel_range_mps2=params.accel_range_mps2 or model.accel_range_mps2,
+    )

@@ -6,8 +6,8 @@ velocity, which counts the acceleration twice; Gui eq. 6-7 move it by the mean v
 """
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import from_rotation_vector, matrix, multiply, normalised
-from pdr_core.maths.vector import Vector, difference, mean, rotated, scaled
+from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised, rows
+from pdr_core.maths.vector import Rows, Vector, difference, mean, rotated, scaled
 from pdr_core.records import Floats
 
 
@@ -21,16 +21,16 @@ def advance(
     force_after_mps2: Vector,
     dt_s: float,
     gravity_mps2: float,
-) -> tuple[Floats, Floats]:
+) -> tuple[Rows, Rows]:
     """Move position, velocity (3,) and attitude (4,) by one interval, in place.
 
     `rate_radps` is the mean over the interval, the forces are those at its ends; all without bias, in the foot frame.
-    Returns the rotations world from foot at both ends, (3, 3).
+    Returns the rotations world from foot at both ends, by rows.
     """
-    R_before = matrix(quat_xyzw)
+    R_before = rows(quat_xyzw)
     turned = multiply(quat_xyzw, from_rotation_vector(scaled(dt_s, rate_radps)))  # eq. 3
     quat_xyzw[:] = normalised(turned)
-    R_after = matrix(quat_xyzw)
+    R_after = rows(quat_xyzw)
     force = mean(rotated(R_before, force_before_mps2), rotated(R_after, force_after_mps2))  # eq. 4
     accel = difference(force, (0.0, 0.0, gravity_mps2))  # eq. 5
     for i in range(3):

@@ -1,6 +1,8 @@
 """Plays a source sample by sample, with a gyro that can be switched off and a rate that can be lowered."""
 
-from collections.abc import Iterator
+from bisect import insort
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,12 +11,20 @@ from pdr_core.records import ImuBlock, length, part
 from pdr_nodes.devices.source import Source
 
 
+class Change(NamedTuple):
+    """What is to happen with the first sample at or after a stamp."""
+
+    at_ns: int
+    happen: Callable[[int], None]
+
+
 class Player:
     """One sample ahead of what has been taken, so that a change of power or rate holds from a known stamp on."""
 
     def __init__(self, source: Source, settling_s: float) -> None:
         self._samples = samples(source)
-        self._settling_ns = round(settling_s * NANOSECONDS)
+        self.settling_s = settling_s
+        self._changes: list[Change] = []  # still to come, the earliest first
         self._keep_every = 1
         self._gyro_on = True
         self._settled_ns = NO_STAMP
@@ -34,6 +44,9 @@ class Player:
         sample, self.taken = self.next, self.taken + 1
         if sample is None:
             raise EOFError("the device has no more samples")
+        while self._changes and self._changes[0].at_ns <= sample.stamp_ns[0]:
+            change = self._changes.pop(0)
+            change.happen(change.at_ns)
         for _ in range(self._keep_every):
             self.next = next(self._samples, None)
         if self.next is not None and self.interval_s == 0.0:
@@ -41,17 +54,34 @@ class Player:
         measures = self._gyro_on and sample.stamp_ns[0] >= self._settled_ns
         return sample if measures else without_gyro(sample)
 
-    def set_gyro_power(self, on: bool) -> None:
-        """Switch the gyro; after being switched on it needs its settling time before it measures."""
-        if on and not self._gyro_on:
-            self._settled_ns = self.next_ns + self._settling_ns
-        self._gyro_on = on
+    def set_gyro_power(self, on: bool, not_before_ns: int = NO_STAMP) -> int:
+        """Switch the gyro; after being switched on it needs its settling time. Return the stamp [ns] it holds from."""
 
-    def set_sample_rate(self, rate_hz: float) -> float:
-        """Keep every k-th sample so that the rate is as near as possible; return the rate that this gives [Hz]."""
+        def switch(at_ns: int) -> None:
+            if on and not self._gyro_on:
+                self._settled_ns = at_ns + round(self.settling_s * NANOSECONDS)
+            self._gyro_on = on
+
+        return self._plan(switch, not_before_ns)
+
+    def set_sample_rate(self, rate_hz: float, not_before_ns: int = NO_STAMP) -> tuple[float, int]:
+        """Keep every k-th sample, as near to the rate as possible.
+
+        Return the rate that this gives [Hz] and the stamp that it holds from [ns].
+        """
         native_hz = 1.0 / self.interval_s
-        self._keep_every = max(1, round(native_hz / rate_hz))
-        return native_hz / self._keep_every
+        keep_every = max(1, round(native_hz / rate_hz))
+
+        def thin(_at_ns: int) -> None:
+            self._keep_every = keep_every
+
+        return native_hz / keep_every, self._plan(thin, not_before_ns)
+
+    def _plan(self, happen: Callable[[int], None], not_before_ns: int) -> int:
+        """Let something happen from a stamp on, but not in the past; what was asked for first happens first."""
+        at_ns = max(not_before_ns, self.next_ns)
+        insort(self._changes, Change(at_ns, happen), key=lambda change: change.at_ns)
+        return at_ns
 
 
 def samples(source: Source) -> Iterator[ImuBlock]:

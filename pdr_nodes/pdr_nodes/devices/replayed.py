@@ -11,7 +11,7 @@ def replayed(params: DriverParams) -> Source:
     """Return the recording that the parameters name; RecordingError if it cannot be opened."""
     if not params.recording:
         raise RecordingError("driver.recording is empty: name the recording to replay.")
-    session = open_recording(Path(params.recording))
+    session = open_recording(Path(params.recording), Path(params.columns) if params.columns else None)
     sensor = chosen(session, params.sensor)
     return Source(f"{session.name} ({sensor.name})", sensor.pieces(), sensor.truth)
 

@@ -10,12 +10,12 @@ from pdr_core.eskf.output import empty_nav, write
 from pdr_core.eskf.updates import inject
 from pdr_core.intake import Ingestion
 from pdr_core.maths import quaternion
-from pdr_core.params import DriverParams, Params, PlaceParams, changed
-from pdr_core.records import FilterMode, PoseEstimate, joined, part
+from pdr_core.params import Params, PlaceParams, SimulationParams, changed
+from pdr_core.records import FilterMode, Handover, PoseEstimate, joined, part
 from pdr_core.simulation import simulated_walk
 
 PARAMS = Params()
-WALK = simulated_walk(DriverParams(walk="straight", walk_length_m=12.0), start_ns=10**18)
+WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=12.0), start_ns=10**18)
 JUDGED = judged(Ingestion(PARAMS.intake).run(WALK.imu), WALK.motion.stance)
 STANCE_ENDS = np.flatnonzero(WALK.motion.stance[:-1] & ~WALK.motion.stance[1:])
 
@@ -81,7 +81,7 @@ def test_every_covariance_of_a_walk_is_symmetric_and_positive():
 
 
 def test_two_hours_of_standing_and_walking_keep_the_covariance_positive():
-    walk = simulated_walk(DriverParams(walk="rectangle", walk_length_m=30.0, sample_rate_hz=50.0))
+    walk = simulated_walk(SimulationParams(walk="rectangle", walk_length_m=30.0, sample_rate_hz=50.0))
     n = len(walk.imu.stamp_ns)
     block = judged(Ingestion(PARAMS.intake).run(walk.imu), walk.motion.stance)
     rest = judged(Ingestion(PARAMS.intake).run(part(walk.imu, 0, 100)), np.ones(100, bool))
@@ -171,12 +171,16 @@ def pose(yaw=None, sd=0.1):
     return PoseEstimate(np.array([1.0, 2.0, 3.0]), quat, np.eye(6) * sd**2)
 
 
+def start(f, pose, keep_biases):
+    return Handover(0, pose, f.handover.biases if keep_biases else None)
+
+
 @pytest.mark.parametrize("keep_biases", [True, False])
 def test_a_reset_starts_anew_at_the_pose(keep_biases):
     f = fresh()
     f.run(part(JUDGED, 0, 900))
     bias, sd = f.health.accel_bias_mps2, f.health.accel_bias_sd_mps2
-    f.reset(pose(yaw=2.0), keep_biases)
+    f.reset(start(f, pose(yaw=2.0), keep_biases))
     f.run(judged(standing(0.05), np.ones(10, bool)))
     np.testing.assert_array_equal(f.state.position_m, [1.0, 2.0, 3.0])
     assert quaternion.yaw_rad(f.state.quat_xyzw) == pytest.approx(2.0)
@@ -188,17 +192,17 @@ def test_a_reset_starts_anew_at_the_pose(keep_biases):
 def test_a_reset_that_forgets_the_biases_forgets_those_kept_before():
     f = fresh()
     f.run(part(JUDGED, 0, 900))
-    f.reset(pose(), keep_biases=True)
+    f.reset(start(f, pose(), True))
     f.run(judged(standing(0.5), np.ones(100, bool)))
-    f.reset(pose(), keep_biases=False)
+    f.reset(start(f, pose(), False))
     f.run(judged(standing(0.05), np.ones(10, bool)))
     np.testing.assert_allclose(f.health.gyro_bias_sd_radps, 0.0035)
 
 
 def test_a_reset_before_the_first_sample_and_two_in_a_row_keep_the_biases_open():
     f = fresh()
-    f.reset(pose(), keep_biases=True)
-    f.reset(pose(), keep_biases=True)
+    f.reset(start(f, pose(), True))
+    f.reset(start(f, pose(), True))
     f.run(judged(standing(0.05), np.ones(10, bool)))
     np.testing.assert_allclose(f.health.gyro_bias_sd_radps, 0.0035)
 

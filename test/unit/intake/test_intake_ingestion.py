@@ -46,68 +46,6 @@ def test_what_is_no_number_is_left_out(column, value):
     np.testing.assert_array_equal(out.stamp_ns, np.delete(imu.stamp_ns, 5))
 
 
-@pytest.mark.parametrize("stamp_ns", [-(2**63), 2**63 - 1, 2**62, -(2**62)])
-def test_a_stamp_that_no_clock_shows_is_left_out(stamp_ns):
-    imu = still()
-    imu.stamp_ns[5] = stamp_ns
-    out, notices = taken(imu)
-    assert only(notices, "not_finite").count == 1
-    assert length(out) == 19
-
-
-def test_duplicates_are_left_out():
-    imu = still()
-    imu.stamp_ns[6:8] = imu.stamp_ns[5]
-    out, notices = taken(imu)
-    notice = only(notices, "duplicate_stamp")
-    assert (notice.level, notice.count, notice.first_stamp_ns) == (Level.WARN, 2, imu.stamp_ns[5])
-    assert notice.text == "samples repeat the stamp before them: left out"
-    assert length(out) == 18
-
-
-def test_late_samples_are_left_out():
-    imu = still()
-    imu.stamp_ns[9] -= 35 * MS
-    out, notices = taken(imu)
-    notice = only(notices, "late_stamp")
-    assert (notice.level, notice.count, notice.first_stamp_ns) == (Level.WARN, 1, imu.stamp_ns[9])
-    assert notice.text == "samples come after younger ones: left out"
-    assert np.all(np.diff(out.stamp_ns) > 0)
-
-
-@pytest.mark.parametrize(("missing_ms", "gaps"), [(100, 0), (101, 1)])
-def test_a_gap_is_told_and_passes(missing_ms, gaps):
-    imu = still()
-    imu.stamp_ns[10:] += (missing_ms - 10) * MS
-    out, notices = taken(imu)
-    assert length(out) == 20
-    assert len(notices) == gaps
-    if gaps:
-        notice = only(notices, "gap")
-        assert (notice.level, notice.count, notice.first_stamp_ns) == (Level.WARN, 1, imu.stamp_ns[10])
-        assert notice.text == "samples are missing: the position is uncertain after the gap"
-
-
-@pytest.mark.parametrize(("back_ms", "kind", "passed"), [(1010, "late_stamp", 10), (1011, "clock_jumped_back", 20)])
-def test_stamps_far_back_are_a_new_stream(back_ms, kind, passed):
-    imu = still()
-    imu.stamp_ns[10:] -= back_ms * MS
-    out, notices = taken(imu)
-    assert length(out) == passed
-    assert kind in notices
-    if kind == "clock_jumped_back":
-        assert notices[kind].text == "the stamps jump back: the track goes on from where it was"
-        assert (notices[kind].level, notices[kind].count) == (Level.WARN, 1)
-
-
-def test_negative_stamps_are_guarded_too():
-    imu = still(begin_ns=-1000 * MS)
-    imu.stamp_ns[5] = imu.stamp_ns[4]
-    out, notices = taken(imu)
-    assert only(notices, "duplicate_stamp").count == 1
-    assert length(out) == 19
-
-
 def test_a_saturated_gyro_is_told_and_trusted_less():
     imu = still()
     imu.gyro_radps[5, 2] = -34.9

@@ -37,7 +37,7 @@ def moved_by_a_change_of(path: Path) -> set[str]:
     [
         ("maths/vector.py", {FILTER, REST, VECTOR}),
         ("maths/compiled.py", {FILTER, REST, VECTOR}),
-        ("conventions.py", {FILTER, REST}),
+        ("conventions.py", {FILTER, REST, VECTOR}),
         ("stance/rest.py", {REST}),
         ("eskf/zupt.py", {FILTER}),  # named as `from pdr_core.eskf import zupt`
         ("eskf/levelling.py", {FILTER}),  # two imports away

@@ -76,7 +76,8 @@ def test_the_normalised_innovation_is_chi_square_distributed():
 def test_small_vectors_and_matrices(seed):
     rng = np.random.default_rng(seed)
     A, B, u, v = rng.standard_normal((3, 3)), rng.standard_normal((3, 5)), *rng.standard_normal((2, 3))
-    np.testing.assert_allclose(vector.cross_matrix(u) @ v, np.cross(u, v), atol=1e-14)
+    np.testing.assert_allclose(vector.cross(u, v), np.cross(u, v), atol=1e-14)
+    np.testing.assert_allclose(vector.transposed(A), A.T)
     np.testing.assert_allclose(vector.rotated(A, v), A @ v, atol=1e-14)
     np.testing.assert_allclose(vector.product(A, B), A @ B, atol=1e-14)
     np.testing.assert_allclose(vector.mean(u, v), (u + v) / 2)

@@ -5,13 +5,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pdr_core.evaluation.metrics import ate2_m
-from pdr_core.params import DriverParams, Params
+from pdr_core.params import Params, SimulationParams
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import ImuBlock, joined
 from pdr_core.simulation import simulated_walk
 
 RATE_HZ = 200
-WALK = simulated_walk(DriverParams(walk="straight", walk_length_m=24.0, sample_rate_hz=float(RATE_HZ)))
+WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=24.0, sample_rate_hz=float(RATE_HZ)))
 STANCE_ENDS = np.flatnonzero(WALK.motion.stance[:-1] & ~WALK.motion.stance[1:])
 IN_SWING, IN_STANCE = 10 * RATE_HZ - 100, 10 * RATE_HZ + 150  # 9.5 s: .5 s into a swing; 10.75 s: .25 s into a stance
 

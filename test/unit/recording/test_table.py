@@ -234,8 +234,8 @@ def test_an_unknown_table_shows_its_columns_and_how_to_map_them(tmp_path):
         ("empty.csv", "", "is empty: record it again"),
         ("header.csv", NGIMU, "holds no readable sample"),
         ("times.csv", NGIMU + "x,1,2,3,4,5,6\n", "holds no readable sample"),
-        ("walk.png", "x", "unknown format: give a rosbag2 directory or a file that ends in .csv, .db3"),
-        ("walk.bag", "#ROSBAG", "convert it with `rosbags-convert"),
+        ("walk.png", "x", "unknown format: give a rosbag2 directory or a file that ends in .bag, .csv"),
+        ("walk.bag", "#ROSBAG", "repair it with `rosbag reindex`"),
     ],
 )
 def test_what_cannot_be_opened_says_what_to_do(tmp_path, name, content, message):

@@ -3,12 +3,12 @@ import copy
 import numpy as np
 import pytest
 
-from pdr_core.params import DriverParams, PlaceParams, StanceParams
+from pdr_core.params import PlaceParams, SimulationParams, StanceParams
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
 
-WALK = simulated_walk(DriverParams(walk="straight", walk_length_m=3.6, sample_rate_hz=100.0), start_ns=10**18)
+WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=3.6, sample_rate_hz=100.0), start_ns=10**18)
 
 
 def detection(**changed):

@@ -51,7 +51,7 @@ def test_what_is_no_noise_does_not_raise_the_threshold():
 
 def test_where_the_gyro_is_off_nothing_is_learned():
     statistic = np.concatenate([np.full(300, 2.0), np.full(10, np.inf), np.full(300, 2.0)])
-    standing, threshold, sd = judged(statistic)
+    standing, threshold, _ = judged(statistic)
     assert threshold.max() == 30.0
     np.testing.assert_array_equal(standing, np.isfinite(statistic))
 

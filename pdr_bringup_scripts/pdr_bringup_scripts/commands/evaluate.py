@@ -1,0 +1,33 @@
+"""`pdr evaluate`: how far a trajectory is from the truth."""
+
+from pathlib import Path
+
+import typer
+
+
+def evaluate(
+    trajectory: Path = typer.Argument(help=".tum, or a .csv with t_s or t_ns, x_m, y_m, z_m"),
+    truth: Path = typer.Argument(help="the same, or any recording that holds positions as its truth"),
+    json: bool = typer.Option(False, "--json", help="print the figures as one JSON object"),
+    report: Path = typer.Option(None, help="write a page with pictures to this .html file"),
+    max_difference: float = typer.Option(0.01, help="rows belong together up to this difference of stamps [s]"),
+    interpolate: bool = typer.Option(False, help="interpolate the trajectory at the stamps of the truth instead"),
+    measured: bool = typer.Option(False, help="leave out rows where motion capture lost the foot, as `pdr run` does"),
+    columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
+    sensor: str = typer.Option("", help="which sensor of the recording, if it has several"),
+) -> None:
+    """Compare a trajectory with the truth: ATE2, ATE3, the ATE that evo gives, and the error per metre.
+
+    Example: `pdr evaluate walk_result/trajectory.tum walk.mcap --report page.html`
+    """
+    from pdr_bringup_scripts.evaluating import Pairing, evaluated, paired
+    from pdr_core.evaluation.comparison import in_words
+    from pdr_core.evaluation.comparison_page import write_comparison
+    from pdr_core.recording.positions import open_positions
+
+    estimate, true = open_positions(trajectory), open_positions(truth, columns, sensor)
+    rows = paired(estimate, true, Pairing(None if interpolate else max_difference, measured))
+    result = evaluated(rows, trajectory, truth)
+    print(result.to_json() if json else in_words(result))
+    if report:
+        write_comparison(report, result, *rows)

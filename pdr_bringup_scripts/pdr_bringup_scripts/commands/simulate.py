@@ -1,0 +1,36 @@
+"""`pdr simulate`: a simulated walk with its truth as a recording."""
+
+from pathlib import Path
+
+import typer
+
+
+def simulate(
+    out: Path = typer.Option("simulated_walk", "--out", "-o", help="NAME.csv, NAME.mcap, or a rosbag2 directory"),
+    motion: str = typer.Option(None, help="how the foot moves: smooth, or gui, as his paper prints it"),
+    walk: str = typer.Option(None, help="rectangle, straight or still; smooth also: curve, stairs, run or mixed"),
+    length: float = typer.Option(None, help="length of the walk [m]"),
+    rate: float = typer.Option(None, help="samples per second [Hz]"),
+    sensor: str = typer.Option(None, help="how good the sensor is: ideal, consumer, gui_table_1 or gui_table_1_deg"),
+    seed: int = typer.Option(None, help="seed of the noise: the same seed, the same walk"),
+    params: Path = typer.Option(None, help="parameter file, see `pdr params`; the options come before it"),
+    force: bool = typer.Option(False, "--force", help="replace what has that name already"),
+) -> None:
+    """Write a simulated walk and where the foot really was, as a recording that `pdr run` reads.
+
+    Example: `pdr simulate --length 60 --out walk` and then `pdr run walk`
+    """
+    from pdr_bringup_scripts.saving import save
+    from pdr_bringup_scripts.simulated import simulated_session
+    from pdr_bringup_scripts.terminal import Terminal
+    from pdr_core.params import Params
+    from pdr_core.params_file import load_params
+
+    chosen = load_params(params) if params else Params()
+    wanted = {
+        "motion": motion, "walk": walk, "walk_length_m": length,
+        "sample_rate_hz": rate, "sensor_model": sensor, "seed": seed,
+    }  # fmt: skip
+    given = {name: value for name, value in wanted.items() if value is not None}
+    session = simulated_session(chosen, given, out)
+    save(session, list(session.sensors.values()), out, force, "Simulating", Terminal())

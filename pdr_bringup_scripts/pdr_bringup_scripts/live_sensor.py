@@ -1,0 +1,102 @@
+"""Runs the nodes on a driver that publishes on the user's own ROS graph, until the user ends it."""
+
+import re
+import time
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from pdr_bringup_scripts.book import make_folder
+from pdr_bringup_scripts.chain import DRIVER, NODES, Chain, stay_on_this_machine
+from pdr_bringup_scripts.interrupt import Interrupt
+from pdr_bringup_scripts.listener import TOPICS, Ears, bag_writer
+from pdr_bringup_scripts.live import BAG, Watch, judge, quiet_for_good_s
+from pdr_bringup_scripts.problems import Problem
+from pdr_bringup_scripts.relay import INPUT, DriverTopics, Relay
+from pdr_bringup_scripts.terminal import Terminal
+from pdr_core.evaluation.result import Result
+from pdr_core.params import Params, params_as_mapping
+from pdr_core.warmup import warm_up
+
+PATIENCE_S = 5.0  # without a sample, before we say so
+REMINDER_S = 30.0
+TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
+
+
+@dataclass(frozen=True)
+class LiveJob:
+    """What to listen to, and for how long."""
+
+    topics: DriverTopics
+    own_driver: bool  # started with the nodes
+    namespace: str  # of our nodes
+    duration_s: float | None  # from the first sample on, or from the start where none comes; None: until Ctrl-C
+
+
+def checked_topic(name: str, namespace: str) -> str:
+    """Return a topic from the root; Problem if it is none, or one on which our own nodes publish."""
+    topic = "/" + name.strip("/")
+    if not TOPIC.fullmatch(topic):
+        raise Problem(f"{name!r} is no ROS topic; it looks like /foot/imu")
+    if topic in (f"/{namespace}/imu/data", f"/{namespace}/{INPUT}"):
+        raise Problem(f"{topic} is a topic of our own nodes: choose another --namespace for them")
+    return topic
+
+
+def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> Result:
+    """Estimate what a driver publishes until Ctrl-C, the duration or our own driver ends it; fill the folder `out`."""
+    make_folder(out)
+    params = replace(params, node=replace(params.node, input_reliable=True))  # the relay is ours
+    warm_up()
+    begin = time.monotonic()
+    stay_on_this_machine(out / "nodes", None)
+    record(params, job, out, terminal)
+    return judge(params, out, time.monotonic() - begin, None, job.namespace)
+
+
+def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
+    """Run the nodes and write all they hear and say to a bag; Problem if no sample came."""
+    ours = {name: kind for name, kind in TOPICS.items() if name != INPUT}
+    with ExitStack() as stack:
+        interrupt = stack.enter_context(Interrupt())
+        show = stack.enter_context(terminal.progress("Listening"))
+        bag = stack.enter_context(bag_writer(out / BAG))
+        watch = Watch(bag.write, show, "")
+        ears = stack.enter_context(Ears(watch.take, job.namespace, ours))
+        relay = Relay(ears.node, job.topics, watch.take)
+        nodes = (*NODES, DRIVER) if job.own_driver else NODES
+        remapped = {DRIVER: {INPUT: job.topics.imu}}
+        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), job.namespace, nodes, remapped))
+        begin, silence, quiet_s = time.monotonic(), Silence(relay, terminal), quiet_for_good_s(params)
+        while not (interrupt.asked or over(job, relay, begin) or (chain.driver_is_done and watch.quiet_s > quiet_s)):
+            ears.listen(0.1)
+            chain.check()
+            silence.look()
+        relay.close()
+        if relay.first_s is None:
+            raise Problem(relay.why_silent())
+        show("ending: the nodes give out what they still hold")
+        while watch.quiet_s < quiet_s:
+            ears.listen(0.1)
+            chain.check()
+
+
+def over(job: LiveJob, relay: Relay, begin_s: float) -> bool:
+    """Tell whether the time is up."""
+    since_s = begin_s if relay.first_s is None else relay.first_s
+    return job.duration_s is not None and time.monotonic() - since_s > job.duration_s
+
+
+class Silence:
+    """Says it when nothing comes, and says it again when that lasts."""
+
+    def __init__(self, relay: Relay, terminal: Terminal) -> None:
+        self._relay = relay
+        self._terminal = terminal
+        self._next_s = time.monotonic() + PATIENCE_S
+
+    def look(self) -> None:
+        """Look whether there is something to say."""
+        if self._relay.first_s is None and time.monotonic() > self._next_s:
+            self._next_s = time.monotonic() + REMINDER_S
+            self._terminal.say(f"pdr: {self._relay.why_silent()}")

@@ -1,0 +1,59 @@
+"""Writes sensors and their true positions as a bag that opens as the same recording."""
+
+import re
+from collections.abc import Iterator, Sequence
+from heapq import merge
+from operator import itemgetter
+from pathlib import Path
+
+import numpy as np
+
+from pdr_core.recording.bag_writer import BagWriter
+from pdr_core.recording.imu_cdr import cdr_from_imu_block
+from pdr_core.recording.session import Sensor
+from pdr_core.recording.stamped_cdr import encoded
+from pdr_core.records import Stamps, Truth
+
+IMU, POINT = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PointStamped"  # a point: nobody knows the true attitude
+TRUTH_FRAME = "ground_truth"
+Message = tuple[int, str, str, bytes]  # time of recording [ns], topic, type, CDR
+
+
+def write_bag(path: Path, sensors: Sequence[Sensor]) -> None:
+    """Write a rosbag2 directory with MCAP storage; OverflowError if a stamp does not fit into a ROS message."""
+    streams = [_samples(sensor) for sensor in sensors]
+    streams += [_truth(sensor.name, sensor.truth) for sensor in sensors if sensor.truth]
+    with BagWriter(path, {}) as bag:
+        for recorded_ns, topic, msgtype, cdr in merge(*streams, key=itemgetter(0)):
+            bag.write(topic, msgtype, recorded_ns, cdr)
+
+
+def namespace(sensor: str) -> str:
+    """Return a sensor's name as ROS allows it in a topic."""
+    return "/" + re.sub(r"(^|/)(?=\d)", r"\1_", re.sub(r"[^A-Za-z0-9_/]", "_", sensor))
+
+
+def recording_times_ns(stamp_ns: Stamps, after_ns: int) -> Stamps:
+    """Return strictly ascending times later than `after_ns`, as near to the stamps, (n,), as that allows.
+
+    A bag is played in the order of these times, so rows that repeat or go back keep their place.
+    """
+    row = np.arange(len(stamp_ns))
+    return np.maximum.accumulate(np.maximum(stamp_ns, after_ns + 1) - row) + row
+
+
+def _samples(sensor: Sensor) -> Iterator[Message]:
+    latest_ns = -1
+    for piece in sensor.pieces():
+        times_ns = recording_times_ns(piece.stamp_ns, latest_ns)
+        latest_ns = int(times_ns[-1])
+        messages = cdr_from_imu_block(piece, sensor.name)
+        topic = f"{namespace(sensor.name)}/data_raw"
+        yield from ((t, topic, IMU, cdr) for t, cdr in zip(times_ns.tolist(), messages, strict=True))
+
+
+def _truth(sensor: str, truth: Truth) -> Iterator[Message]:
+    """Yield positions; other kinds of truth have no stamps."""
+    times_ns = recording_times_ns(truth.stamp_ns, -1).tolist()
+    messages = encoded(truth.stamp_ns, truth.position_m, TRUTH_FRAME) if times_ns else []
+    yield from ((t, f"{namespace(sensor)}/ground_truth", POINT, cdr) for t, cdr in zip(times_ns, messages, strict=True))

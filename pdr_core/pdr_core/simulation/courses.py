@@ -1,0 +1,92 @@
+"""The courses of the named walks."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pdr_core.parameter import ParameterError
+from pdr_core.simulation.foot_motion import REST_S, FootCourse
+from pdr_core.simulation.gait import RISE_M, RUN, SHUFFLE, STAIRS_DOWN, STAIRS_UP, WALK, Gait, Stride
+from pdr_core.simulation.gui_motion import STEP_LENGTH_M, GuiCourse, Phase, steps, turn
+from pdr_core.simulation.motion import Course
+
+FLIGHT = 9  # strides from one floor to the next: 3.06 m
+CORNER = 3  # strides of a walked turn by 90 degrees
+ROUND = 12  # least strides of a walked circle
+STAND_S = 2.0
+
+
+def gui_course(name: str, length_m: float) -> Course:
+    """Return Gui's motion along a walk of about `length_m`, in whole steps; ParameterError if it has no such walk."""
+    if name == "still":
+        phases = []
+    elif name == "straight":
+        phases = steps(max(1, round(length_m / STEP_LENGTH_M)))
+    elif name == "rectangle":
+        long_side, short_side = sides(length_m, STEP_LENGTH_M)
+        corner = turn(np.pi / 2.0)
+        phases = (steps(long_side) + corner + steps(short_side) + corner) * 2
+    else:
+        text = f"simulation.walk = '{name}': Gui's motion knows only level ground; set simulation.motion to smooth"
+        raise ParameterError(text)
+    return GuiCourse([Phase(REST_S), *phases, Phase(REST_S)])
+
+
+def sides(length_m: float, stride_m: float) -> tuple[int, int]:
+    """Return the strides along the long and the short side of a rectangle whose circumference is about `length_m`."""
+    long_side = max(1, round(length_m / stride_m / 3.0))
+    return long_side, max(1, round(length_m / stride_m / 2.0) - long_side)
+
+
+def foot_course(name: str, length_m: float, pace: float) -> Course:
+    """Return the smooth foot along a walk of about `length_m`, in whole strides, at `pace` times the usual speed."""
+    strides = {
+        "still": lambda _: [],
+        "straight": lambda length_m: ahead(length_m, WALK),
+        "rectangle": rectangle,
+        "curve": circle,
+        "stairs": stairs,
+        "run": lambda length_m: ahead(length_m, RUN),
+        "mixed": mixed,
+    }[name](length_m)
+    return FootCourse([replace(s, gait=s.gait.paced(pace)) for s in strides])
+
+
+def ahead(length_m: float, gait: Gait) -> list[Stride]:
+    """Return strides straight ahead."""
+    return [Stride(gait)] * max(1, round(length_m / gait.length_m))
+
+
+def walked_turn(angle_rad: float, gait: Gait = WALK) -> list[Stride]:
+    """Return strides along an arc, at most 30 degrees each."""
+    count = max(1, round(abs(angle_rad) * CORNER / (np.pi / 2.0)))
+    return [Stride(gait, turn_rad=angle_rad / count)] * count
+
+
+def rectangle(length_m: float) -> list[Stride]:
+    """Return four sides and four walked corners, which close."""
+    long_side, short_side = sides(max(0.0, length_m - 4 * CORNER * WALK.length_m), WALK.length_m)
+    corner = walked_turn(np.pi / 2.0)
+    return ([Stride(WALK)] * long_side + corner + [Stride(WALK)] * short_side + corner) * 2
+
+
+def circle(length_m: float) -> list[Stride]:
+    """Return one turn to the left along a circle, which closes."""
+    count = max(ROUND, round(length_m / WALK.length_m))
+    return [Stride(WALK, turn_rad=2.0 * np.pi / count)] * count
+
+
+def stairs(length_m: float) -> list[Stride]:
+    """Return a walk on one floor, a flight up, half a turn, the same length on the next floor, and a flight down."""
+    level = ahead(length_m / 2.0, WALK)
+    up, down = [Stride(STAIRS_UP, climb_m=RISE_M)] * FLIGHT, [Stride(STAIRS_DOWN, climb_m=-RISE_M)] * FLIGHT
+    return [*level, *up, *walked_turn(np.pi), *level, *walked_turn(np.pi), *down]
+
+
+def mixed(length_m: float) -> list[Stride]:
+    """Return a walk, a run, a walked half turn, a stand, a walk with turns both ways, and a shuffle."""
+    part_m = length_m / 4.0
+    stop = replace(Stride(WALK), pause_s=STAND_S)
+    weave = walked_turn(np.pi / 3.0) + walked_turn(-2.0 * np.pi / 3.0) + walked_turn(np.pi / 3.0)
+    back = [*walked_turn(np.pi), stop, *ahead(part_m, WALK), *weave]
+    return [*ahead(part_m, WALK), *ahead(part_m, RUN), *back, *ahead(part_m / 4.0, SHUFFLE)]

@@ -1,0 +1,107 @@
+"""`pdr simulate`, `pdr convert` and `pdr evaluate`, as they are typed."""
+
+import json
+
+import pytest
+
+from support.processes import pdr
+from support.walks import straight_walk, write_csv
+
+
+def done(*arguments, **options):
+    answer = pdr(*arguments, **options)
+    assert answer.returncode == 0, answer.stderr
+    return answer
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A simulated walk, the same as CSV, and what `pdr run` makes of both."""
+    folder = tmp_path_factory.mktemp("files")
+    walk = ("simulate", "--walk", "straight", "--length", 3, "--rate", 100, "--seed", 5)
+    for name in ("walk", "walk.csv"):
+        done(*walk, "--out", folder / name)
+        done("run", folder / name, "--out", folder / f"result of {name}")
+    return folder
+
+
+def test_a_simulated_walk_is_the_same_in_both_formats(folder):
+    bag, text = (folder / f"result of {name}" / "trajectory.tum" for name in ("walk", "walk.csv"))
+    assert bag.read_bytes() == text.read_bytes()
+    assert bag.read_text().count("\n") > 800
+
+
+def test_its_truth_went_along(folder):
+    for name in ("walk", "walk.csv"):
+        truth = json.loads((folder / f"result of {name}" / "result.json").read_text())["truth"]
+        assert truth["kind"] == "position"
+        assert 0.0 < truth["ate2_m"] < 0.1
+
+
+def test_the_same_seed_is_the_same_walk_and_another_is_another(folder, tmp_path):
+    walk = ("simulate", "--walk", "straight", "--length", 3, "--rate", 100)
+    for seed in (5, 6):
+        done(*walk, "--seed", seed, "--out", tmp_path / f"{seed}.csv")
+    assert (tmp_path / "5.csv").read_bytes() == (folder / "walk.csv").read_bytes()
+    assert (tmp_path / "6.csv").read_bytes() != (folder / "walk.csv").read_bytes()
+
+
+def test_a_parameter_that_is_not_allowed_is_refused(tmp_path):
+    answer = pdr("simulate", "--rate", 5, "--out", tmp_path / "walk")
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "sample_rate_hz = 5.0: must be float, within 20" in answer.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_users_csv_runs_alike_before_and_after(tmp_path):
+    own = write_csv(tmp_path / "own.csv", straight_walk(2).imu)
+    columns = own.with_suffix(".yaml").rename(tmp_path / "columns of mine.yml")
+    done("run", own, "--columns", columns, "--out", tmp_path / "before")
+    said = done("convert", own, tmp_path / "bag", "--columns", columns).stdout
+    assert said == f"Written to {tmp_path / 'bag'}: 900 samples of imu, 9.0 s.\n"
+    done("run", tmp_path / "bag", "--out", tmp_path / "after")
+    before, after = (tmp_path / name / "trajectory.tum" for name in ("before", "after"))
+    assert before.read_bytes() == after.read_bytes()
+
+
+def test_what_exists_stays_unless_force_is_given(folder, tmp_path):
+    done("convert", folder / "walk", tmp_path / "copy.mcap")
+    answer = pdr("convert", folder / "walk", tmp_path / "copy.mcap")
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "exists already: choose another name, or replace it with --force" in answer.stderr
+    done("convert", folder / "walk", tmp_path / "copy.mcap", "--force")
+    assert [p.name for p in tmp_path.iterdir()] == ["copy.mcap"]
+
+
+def test_what_could_not_be_read_is_a_warning(folder, tmp_path):
+    done("convert", folder / "walk", tmp_path / "whole.mcap")
+    whole = (tmp_path / "whole.mcap").read_bytes()
+    (tmp_path / "cut.mcap").write_bytes(whole[: len(whole) // 2])
+    answer = done("convert", tmp_path / "cut.mcap", tmp_path / "saved")
+    assert answer.stderr.startswith("Warning: cut.mcap is damaged: ")
+    done("run", tmp_path / "saved")
+
+
+def test_a_trajectory_is_compared_with_the_truth_of_its_recording(folder, tmp_path):
+    trajectory, result = (folder / "result of walk" / name for name in ("trajectory.tum", "result.json"))
+    page = tmp_path / "page.html"
+    measured = json.loads(done("evaluate", trajectory, folder / "walk", "--json", "--measured").stdout)
+    assert measured["ate2_m"] == pytest.approx(json.loads(result.read_text())["truth"]["ate2_m"], abs=1e-9)
+    found = json.loads(done("evaluate", trajectory, folder / "walk", "--json", "--report", page).stdout)
+    assert 0.0 < found["ate_rigid"]["rmse_m"] < found["ate3_m"] < 0.2
+    assert found == json.loads(
+        done("evaluate", trajectory, folder / "walk_truth.csv", "--json", "--interpolate").stdout
+    )
+    assert page.stat().st_size > 1000
+    said = done("evaluate", trajectory, folder / "walk").stdout
+    assert f"ATE2 {found['ate2_m']:.4f} m" in said
+    assert f"ATE  {found['ate_rigid']['rmse_m']:.4f} m" in said
+
+
+def test_tracks_of_different_times_are_one_sentence(folder, tmp_path):
+    other = tmp_path / "other.tum"
+    other.write_text("".join(f"{t} 0 0 0 0 0 0 1\n" for t in range(10_000, 10_010)))
+    answer = pdr("evaluate", other, folder / "walk")
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "only 0 pairs of positions at the same time: check that both count from the same moment" in answer.stderr
+    assert answer.stderr.count("\n") == 1

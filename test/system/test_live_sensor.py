@@ -1,0 +1,130 @@
+"""`pdr live` on somebody else's driver, in a process that shares nothing with us but the ROS graph."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pdr_bringup_scripts.live_recording import messages
+from pdr_core.recording import open_recording
+from pdr_core.recording.tum import read_tum
+from pdr_core.records import joined
+from support import foreign_driver
+from support.processes import END_S, pdr, start
+from support.walks import straight_walk, write_csv
+
+STRIDES, SPEED = 4, 2
+pytestmark = pytest.mark.usefixtures("ros_environment")
+
+
+@pytest.fixture(scope="module")
+def walk(tmp_path_factory):
+    return write_csv(tmp_path_factory.mktemp("walk") / "walk.csv", straight_walk(STRIDES).imu)
+
+
+def end_when_done(live, log):
+    """Press Ctrl-C when the driver has published everything."""
+    deadline_s = time.monotonic() + END_S
+    while "done" not in log.read_text():
+        assert time.monotonic() < deadline_s, log.read_text()
+        assert live.poll() is None, "pdr live ended before the driver"
+        time.sleep(0.1)
+    time.sleep(0.5)
+    live.send_signal(signal.SIGINT)
+
+
+@pytest.fixture(scope="module", params=["RELIABLE", "BEST_EFFORT"])
+def run(request, walk, tmp_path_factory):
+    """A live run that Ctrl-C ends: its folder, its exit code and what it said."""
+    folder = tmp_path_factory.mktemp("live")
+    log = folder / "driver.log"
+    driver = start([foreign_driver.__file__, str(walk), "/your/imu", request.param, str(SPEED)], log)
+    command = [sys.executable, "-m", "pdr_bringup_scripts", "live", "--imu", "your/imu", "--mag", "/your/imu_mag"]
+    live = subprocess.Popen(
+        [*command, "--out", str(folder / "out")], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    try:
+        end_when_done(live, log)
+        said, complained = live.communicate(timeout=END_S)
+    finally:
+        for process in (driver, live):
+            process.kill()
+            process.wait(END_S)
+    return folder / "out", live.returncode, said, complained
+
+
+def test_ctrl_c_ends_it_well(run):
+    out, code, said, complained = run
+    assert (code, "Traceback" in complained) == (0, False), complained
+    assert said.startswith("Walked ")
+    assert str(out / "report.html") in said
+    assert (out / "report.html").stat().st_size > 1000
+
+
+def test_what_is_estimated_is_what_was_recorded(run):
+    out = run[0]
+    answer = pdr("run", out / "recording", "--out", out / "again")
+    assert answer.returncode == 0, answer.stderr
+    live, again = (read_tum(folder / "trajectory.tum") for folder in (out, out / "again"))
+    np.testing.assert_array_equal(live.stamp_ns, again.stamp_ns)
+    np.testing.assert_array_equal(live.position_m, again.position_m)
+    results = [json.loads((folder / "result.json").read_text()) for folder in (out, out / "again")]
+    assert results[0]["strides"] == results[1]["strides"]
+    assert results[0]["samples"] == results[1]["samples"]
+    kinds = [{n["kind"]: n["count"] for n in result["notices"]} for result in results]
+    assert kinds[0] == kinds[1]
+
+
+def test_the_samples_come_through_as_they_were(run, walk):
+    (live,) = open_recording(run[0] / "recording").sensors.values()
+    (source,) = open_recording(walk).sensors.values()
+    heard, sent = joined(list(live.pieces())), joined(list(source.pieces()))
+    rows = np.searchsorted(sent.stamp_ns, heard.stamp_ns)
+    np.testing.assert_array_equal(heard.gyro_radps, sent.gyro_radps[rows])
+    np.testing.assert_array_equal(heard.accel_mps2, sent.accel_mps2[rows])
+    assert len(rows) > 0.8 * len(sent.stamp_ns)  # what is lost, is lost before it reaches us
+
+
+def test_the_magnetometer_is_recorded(run):
+    heard = list(messages(run[0] / "recording", "imu/mag"))
+    assert len(heard) > 0.8 * 100 * 10
+    assert heard[0].header.frame_id == "somebodys_imu"
+
+
+def test_nothing_to_hear_is_one_sentence(tmp_path):
+    answer = pdr("live", "--imu", "/nowhere", "--duration", 0.5, "--out", tmp_path / "out")
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert answer.stderr.startswith("pdr: no messages on /nowhere yet: nobody publishes ")
+    assert answer.stderr.count("\n") == 1
+
+
+def test_a_driver_of_ours_is_started_and_ends_the_run(tmp_path):
+    params = tmp_path / "mine.yaml"
+    given = "{walk: straight, walk_length_m: 2.4, sample_rate_hz: 100.0, rate_factor: 4.0}"
+    params.write_text(f"/**: {{ros__parameters: {{driver: {given}}}}}\n")
+    answer = pdr("live", "--driver", "simulated", "--params", params, "--out", tmp_path / "out")
+    assert answer.returncode == 0, answer.stderr
+    assert "in 2 strides" in answer.stdout
+    assert "off the true path" in answer.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (("--imu", "/pdr/imu/data"), "a topic of our own nodes"),
+        (("--imu", "/imu/data", "--namespace", "two feet"), "no namespace"),
+        (("--imu", "my imu"), "no ROS topic"),
+        (("--imu", "/imu", "--mag", "imu"), "cannot be both"),
+        (("--driver", "teapot"), "driver.device = 'teapot'"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(arguments, word, tmp_path):
+    answer = pdr("live", *arguments, "--out", tmp_path / "out")
+    assert answer.returncode == 2
+    assert word in answer.stderr
+    assert not Path(tmp_path / "out").exists()

@@ -1,0 +1,50 @@
+"""What `pdr live` says when nothing comes, as seen on the graph."""
+
+import pytest
+import rclpy
+from sensor_msgs.msg import Imu, MagneticField
+
+from pdr_bringup_scripts.relay import DriverTopics, Relay
+from support.bench import Bench
+
+pytestmark = pytest.mark.usefixtures("ros_environment")
+
+
+@pytest.fixture
+def bench():
+    with Bench() as bench:
+        bench.heard = []
+        bench.relay = Relay(bench.me, DriverTopics("/your/imu", "", False), lambda *what: bench.heard.append(what))
+        yield bench
+
+
+def test_others_that_would_do_are_named(bench):
+    bench.me.create_publisher(Imu, "/left/imu", 10)
+    bench.until(lambda: "/left/imu" in bench.relay.why_silent(), "the topic that would do")
+    assert "nobody publishes it in ROS domain" in bench.relay.why_silent()
+
+
+def test_a_wrong_type_is_told(bench):
+    with rclpy.context.Context() as others:  # ROS allows one type per topic and participant
+        node = rclpy.create_node("other", context=others)
+        node.create_publisher(MagneticField, "/your/imu", 10)
+        text = "it is published as sensor_msgs/msg/MagneticField, not as sensor_msgs/msg/Imu"
+        bench.until(lambda: text in bench.relay.why_silent(), "the type")
+
+
+def test_a_silent_publisher_is_told(bench):
+    bench.me.create_publisher(Imu, "/your/imu", 10)
+    bench.until(lambda: "its publisher is there but sends nothing" in bench.relay.why_silent(), "the publisher")
+
+
+def test_what_comes_is_passed_on_until_it_is_closed(bench):
+    passed = bench.hear(Imu, "imu/data_raw")
+    publisher = bench.publisher(Imu, "/your/imu", 10)
+    publisher.publish(Imu())
+    bench.until(lambda: passed and bench.heard, "a sample")
+    bench.relay.close()
+    publisher.publish(Imu())
+    for _ in range(10):
+        bench.spin()
+    assert (len(passed), len(bench.heard)) == (1, 1)
+    assert bench.heard[0][:2] == ("imu/data_raw", "sensor_msgs/msg/Imu")
