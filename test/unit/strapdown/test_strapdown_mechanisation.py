@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 G = 9.81
 UP = np.array([0.0, 0.0, G])
@@ -81,3 +81,22 @@ def test_gravity_pulls_down_and_rest_stays_at_rest():
     np.testing.assert_array_equal(np.concatenate([position, velocity]), np.zeros(6))
     position, *_ = integrated(lambda _: np.zeros(3), lambda _: np.zeros(3), 1.0, 10)
     np.testing.assert_allclose(position, [0, 0, -G / 2])
+
+
+def test_the_mean_rate_of_a_coning_motion_is_of_a_higher_order():
+    def rate(t):
+        return np.array([3.0 * np.cos(20.0 * t), 3.0 * np.sin(20.0 * t), 1.0])
+
+    def turned(steps, corrected):
+        total, dt = Rotation.identity(), 0.5 / steps
+        for k in range(steps):
+            before, after = rate(k * dt), rate((k + 1) * dt)
+            w = np.array(mean_rate(before, after, dt)) if corrected else (before + after) / 2
+            total *= Rotation.from_rotvec(w * dt)
+        return total
+
+    true = turned(200_000, corrected=True)
+    assert (true.inv() * turned(200_000, corrected=False)).magnitude() < 1e-6
+    plain, better = ((true.inv() * turned(100, corrected=c)).magnitude() for c in (False, True))
+    assert plain > 1e-3
+    assert better < 0.6 * plain
