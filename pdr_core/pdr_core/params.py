@@ -1,6 +1,7 @@
 """Every parameter of the suite: one class per stage, one field per parameter.
 
-YAML files, ROS declarations and the tables of the documentation are generated from here (see `parameter.py`).
+Those of stance detection and filter are in `params_foot.py`. YAML files, ROS declarations and the tables of the
+documentation are generated from here (see `parameter.py`).
 """
 
 from collections.abc import Mapping
@@ -8,6 +9,8 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from pdr_core.parameter import ParameterError, from_mapping, parameter
+from pdr_core.params_foot import FilterParams as FilterParams
+from pdr_core.params_foot import StanceParams as StanceParams
 
 
 @dataclass(frozen=True)
@@ -37,11 +40,39 @@ class IntakeParams:
         bounds=(0.0, 10.0),
         source="measured on real walks",
     )
-    saturated_gyro_sd_radps: float = parameter(
-        1.0, "what a saturated gyro may be off by", unit="rad/s", bounds=(0.0, 50.0)
+    gyro_motion_noise: float = parameter(
+        0.0005,
+        "noise density of the gyro per rate",
+        unit="1/sqrt(Hz)",
+        bounds=(0.0, 1.0),
+        source="measured on real walks",
     )
-    saturated_accel_sd_mps2: float = parameter(
-        20.0, "what a saturated accelerometer may be off by", unit="m/s^2", bounds=(0.0, 500.0)
+    accel_motion_noise: float = parameter(
+        0.003,
+        "noise density of the accelerometer per deviation from gravity",
+        unit="1/sqrt(Hz)",
+        bounds=(0.0, 1.0),
+        source="measured on real walks",
+    )
+    saturated_gyro_noise_density: float = parameter(
+        0.03,
+        "noise density where the gyro saturates",
+        unit="rad/s/sqrt(Hz)",
+        bounds=(0.0, 10.0),
+        source="measured on real walks",
+    )
+    saturated_accel_noise_density: float = parameter(
+        1.4, "noise density where the accelerometer saturates", unit="m/s^2/sqrt(Hz)", bounds=(0.0, 100.0)
+    )
+    clip_smallest_radps: float = parameter(
+        4.0,
+        "no gyro clips below this rate; a large number switches the repair of clipped rates off",
+        unit="rad/s",
+        bounds=(0.1, 1e6),
+        source="below 250 deg/s, the smallest range sold",
+    )
+    clip_longest_s: float = parameter(
+        0.1, "a sample that may be clipped is held back for at most so long", unit="s", bounds=(0.0, 1.0)
     )
     restart_s: float = parameter(
         1.0, "stamps that jump back by more are a new stream, by less a late sample", unit="s", bounds=(0.01, 3600.0)
@@ -60,134 +91,6 @@ class PlaceParams:
 
     latitude_deg: float = parameter(45.0, "latitude", unit="deg", bounds=(-90.0, 90.0))
     height_m: float = parameter(0.0, "height above the ellipsoid", unit="m", bounds=(-500.0, 9000.0))
-
-
-@dataclass(frozen=True)
-class StanceParams:
-    """Stance detection: GLRT, time threshold, gait classification, soft rest test."""
-
-    window_s: float = parameter(
-        0.035, "length of the centred window of the GLRT", unit="s", bounds=(0.0, 1.0), source="Gui eq. 8, W"
-    )
-    accel_sd_mps2: float = parameter(
-        0.1, "accelerometer noise in the GLRT", unit="m/s^2", bounds=(1e-4, 10.0), source="Gui eq. 8, sigma_f"
-    )
-    gyro_sd_radps: float = parameter(
-        0.017, "gyro noise in the GLRT", unit="rad/s", bounds=(1e-5, 1.0), source="Gui eq. 8, sigma_omega"
-    )
-    threshold: float = parameter(
-        2000.0, "a foot stands where the statistic is at most this", bounds=(1e-3, 1e9), source="Gui section 3, T_d"
-    )
-    toe_off_ratio: float = parameter(
-        4.0, "a toe-off is a statistic over this many thresholds", bounds=(1.0, 1e6), source="Gui section 3"
-    )
-    stance_min_s: float = parameter(
-        0.05, "time threshold: a stance lasts at least so long", unit="s", bounds=(0.0, 1.0), source="Gui section 3"
-    )
-    dip_max_s: float = parameter(
-        0.15,
-        "what begins within swing_min_s of the last stance must last longer",
-        unit="s",
-        bounds=(0.0, 1.0),
-        source="Gui figure 3",
-    )
-    swing_min_s: float = parameter(
-        0.55,
-        "so soon after the last stance, a short dip is mid-swing",
-        unit="s",
-        bounds=(0.0, 2.0),
-        source="Gui section 3",
-    )
-    rest_moving_radps: float = parameter(
-        0.5,
-        "a mean rate over this is a moving foot",
-        unit="rad/s",
-        bounds=(0.01, 10.0),
-        source="measured on real walks",
-    )
-    rest_smoothing_s: float = parameter(0.05, "time over which that mean is taken", unit="s", bounds=(0.0, 1.0))
-    rest_guard_s: float = parameter(
-        0.1, "time before and after movement that is left out of a rest", unit="s", bounds=(0.0, 2.0)
-    )
-    rest_shortest_s: float = parameter(0.4, "shortest window of the first rest", unit="s", bounds=(0.05, 10.0))
-    rest_longest_s: float = parameter(3.0, "longest window of a rest", unit="s", bounds=(0.1, 60.0))
-    rest_later_s: float = parameter(
-        2.0, "shortest window of a later rest: longer than any stance of a walk", unit="s", bounds=(0.1, 60.0)
-    )
-    rest_floor_radps: float = parameter(
-        8.7e-4,
-        "a rest never tells the gyro bias better than this",
-        unit="rad/s",
-        bounds=(0.0, 1.0),
-        source="0.05 deg/s",
-    )
-    rest_turn_rad: float = parameter(
-        5.2e-4, "a resting foot may turn steadily by this", unit="rad", bounds=(0.0, 1.0), source="0.03 deg"
-    )
-
-
-@dataclass(frozen=True)
-class FilterParams:
-    """The error-state Kalman filter."""
-
-    samples: str = parameter(
-        "points", "values at the stamps, or means since the sample before", choices=("points", "means")
-    )
-    alignment_s: float = parameter(
-        0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"
-    )
-    initial_yaw_rad: float = parameter(0.0, "yaw at the start", unit="rad", bounds=(-3.15, 3.15))
-    gravity_source: str = parameter(
-        "rest", "gravity from the specific force of the first rest or from the place", choices=("rest", "place")
-    )
-    zero_velocity_sd_mps: float = parameter(
-        0.02, "how still a standing foot is", unit="m/s", bounds=(1e-5, 10.0), source="Gui eq. 22, Zhou R_v"
-    )
-    gate: float = parameter(
-        16.3,
-        "normalised innovation squared that a zero-velocity update may have",
-        bounds=(1.0, 1e9),
-        source="chi-square, 3 degrees of freedom, 99.9 %",
-    )
-    gate_release_s: float = parameter(
-        0.1, "rejections that go on for longer are taken after all, with less weight", unit="s", bounds=(0.0, 10.0)
-    )
-    step_merge_s: float = parameter(
-        0.3,
-        "interruptions of a stance up to this belong to it",
-        unit="s",
-        bounds=(0.0, 5.0),
-        source="measured on real walks",
-    )
-    heading_feedback: bool = parameter(
-        False, "every step waits for its heading observation: set it where a node or stage gives them"
-    )
-    heading_due_s: float = parameter(
-        0.1, "so long after a step is known its heading observation applies", unit="s", bounds=(0.0, 5.0)
-    )
-    gap_speed_mps: float = parameter(1.5, "speed that a person may have in a gap", unit="m/s", bounds=(0.0, 20.0))
-    gap_rate_radps: float = parameter(0.5, "rate at which a foot may turn in a gap", unit="rad/s", bounds=(0.0, 20.0))
-    accel_bias_walk: float = parameter(
-        1e-5, "random walk of the accelerometer bias", unit="m/s^2/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 16"
-    )
-    gyro_bias_walk: float = parameter(
-        1e-6, "random walk of the gyro bias", unit="rad/s/sqrt(s)", bounds=(0.0, 1.0), source="Gui eq. 15"
-    )
-    bias_correlation_s: float = parameter(
-        1e7,
-        "correlation time of the biases, 1/beta: a bias that a rest has shown is kept",
-        unit="s",
-        bounds=(1.0, 1e9),
-        source="about 2 (initial deviation / walk)^2: with it Gui eq. 15-16 keep the initial variance",
-    )
-    initial_position_sd_m: float = parameter(0.001, "at the start", unit="m", bounds=(0.0, 1e3))
-    initial_velocity_sd_mps: float = parameter(0.01, "at the start", unit="m/s", bounds=(0.0, 10.0))
-    initial_tilt_sd_rad: float = parameter(0.03, "after levelling", unit="rad", bounds=(0.0, 3.15))
-    initial_yaw_sd_rad: float = parameter(0.001, "at the start", unit="rad", bounds=(0.0, 3.15))
-    initial_accel_bias_sd_mps2: float = parameter(0.02, "what the sensor may bring", unit="m/s^2", bounds=(0.0, 10.0))
-    initial_gyro_bias_sd_radps: float = parameter(
-        0.0035, "what the sensor may bring: 0.2 deg/s", unit="rad/s", bounds=(0.0, 1.0), source="measured on real walks"
-    )
 
 
 @dataclass(frozen=True)

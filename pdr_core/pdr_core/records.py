@@ -36,6 +36,7 @@ class StanceBlock(NamedTuple):
     stance: Flags  # (n,)
     statistic: Floats  # (n,) of the detector
     threshold: Floats  # (n,) stance needs statistic <= threshold
+    zero_velocity_sd_mps: Floats  # (n,) how still a standing foot is; 0: the detector does not say
     rest_rate_radps: Floats  # (n, 3)
     rest_sd_radps: Floats  # (n,)
 

@@ -91,6 +91,7 @@ def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
     message.stance = bool(block.stance[i])
     message.statistic = finite(block.statistic[i])
     message.threshold = float(block.threshold[i])
+    message.zero_velocity_stddev = finite(block.zero_velocity_sd_mps[i])
     message.rest_ended = bool(block.rest_sd_radps[i] > 0.0)
     message.rest_rate = vector(block.rest_rate_radps[i])
     message.rest_rate_stddev = float(block.rest_sd_radps[i])
@@ -109,6 +110,7 @@ def stance_block(message: StanceImu) -> StanceBlock:
         np.array([message.stance]),
         np.array([message.statistic]),
         np.array([message.threshold]),
+        np.array([message.zero_velocity_stddev]),
         np.array([numbers(message.rest_rate)]),
         np.array([message.rest_rate_stddev]),
     )

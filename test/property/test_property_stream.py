@@ -22,7 +22,7 @@ PARAMS = Params()
 
 
 def troubled_walk():
-    """Return a walk with gap, restart, clock set, duplicate, swap, stray, burst, NaN, saturation and gyro pauses."""
+    """Return a walk with gap, restart, clock set, duplicate, swap, stray, burst, NaN, clipped rates, gyro pauses."""
     sim = simulated_walk(SimulationParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
     imu = ImuBlock(*(column.copy() for column in sim.imu))
     imu.stamp_ns[450:] += 700_000_000
@@ -37,6 +37,8 @@ def troubled_walk():
     imu.stamp_ns[800:] -= 30_000_000_000
     imu.accel_mps2[333, 1] = np.nan
     imu.gyro_radps[700:704] = 34.9
+    imu.gyro_radps[500:507] = np.outer([2.0, 5.0, 6.0, 6.02, 6.0, 4.5, 2.0], [0.3, 1.0, -0.9])
+    imu.gyro_radps[550:570, 2] = -7.0  # a plateau that lasts too long
     imu.gyro_sd_radps[900:930] = -1.0
     return imu
 

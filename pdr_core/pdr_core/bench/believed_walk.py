@@ -38,9 +38,14 @@ class BelievedWalk(NamedTuple):
 
 
 def told() -> Params:
-    """Return the parameters of a suite that knows a consumer-grade sensor, that it integrates, and gravity here."""
+    """Return the parameters of a suite that knows all there is: a consumer-grade sensor that integrates, with white
+    noise, gravity, and feet that tremble but neither roll nor slip.
+    """
     densities = {name: getattr(CONSUMER, name) for name in ("gyro_noise_density", "accel_noise_density")}
-    return changed(changed(Params(), "intake", **densities), "filter", samples="means", gravity_source="place")
+    white = changed(Params(), "intake", gyro_motion_noise=0.0, accel_motion_noise=0.0, **densities)
+    return changed(
+        white, "filter", samples="means", gravity_source="place", contact_height_m=0.0, huber=white.filter.gate
+    )
 
 
 def ground(length_m: float, rest_s: float = START_S) -> Ground:

@@ -123,7 +123,7 @@ def truly_judged(imu: ImuBlock, stance: Flags) -> StanceBlock:
     rest_rate, rest_sd = np.zeros((n, 3)), np.zeros(n)
     rest_rate[end] = imu.gyro_radps[1:end].mean(axis=0)
     rest_sd[end] = CONSUMER.gyro_noise_density * np.sqrt(RATE_HZ / (end - 1))
-    return StanceBlock(imu, stance, np.zeros(n), np.ones(n), rest_rate, rest_sd)
+    return StanceBlock(imu, stance, np.zeros(n), np.ones(n), np.zeros(n), rest_rate, rest_sd)
 
 
 def estimated(block: StanceBlock, params: Params) -> Track:

@@ -25,7 +25,11 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         initial_yaw_rad=p.initial_yaw_rad,
         initial_sd=np.array(position_and_velocity + attitude + biases),
         zero_velocity_sd_mps=p.zero_velocity_sd_mps,
+        contact_height_m=p.contact_height_m,
+        huber=p.huber,
         gate=p.gate,
-        release_ns=round(p.gate_release_s * NANOSECONDS),
+        release_s=p.gate_release_s,
         merge_ns=round(p.step_merge_s * NANOSECONDS),
+        step_min_m=p.step_min_m,
+        step_turn_min_rad=p.step_turn_min_rad,
     )

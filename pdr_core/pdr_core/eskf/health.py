@@ -12,14 +12,14 @@ LOST_AFTER_S = 5.0  # no step takes so long
 def notices(state: FilterState) -> list[Notice]:
     """Return what a person should know of the filter."""
     start_ns, swing_s = int(state.alignment_start_ns), float(state.longest_swing_s)
-    released, gaps = int(state.released), int(state.gaps)
+    doubted, gaps = int(state.doubted), int(state.gaps)
     found = []
     if state.moved:
         text = "the foot moved while it was levelled: stand still for the first moments"
         found.append(Notice(Level.WARN, "moving_start", text, 1, start_ns))
-    if released:
-        text = "stances were far from the estimate and taken after all: the track was off before them"
-        found.append(Notice(Level.WARN, "gate_released", text, released, start_ns))
+    if doubted:
+        text = "stances contradicted the estimate until it gave way: the track was off before them"
+        found.append(Notice(Level.WARN, "estimate_doubted", text, doubted, start_ns))
     if swing_s > LOST_AFTER_S:
         text = f"no stance for {swing_s:.0f} s: the track is lost; is the sensor fixed to the shoe?"
         found.append(Notice(Level.ERROR, "no_stance", text, 1, start_ns))
@@ -67,6 +67,5 @@ def mode(state: FilterState) -> FilterMode:
 
 def quality(state: FilterState, since_zero_velocity_s: float) -> float:
     """Return the share of stances that agreed with the estimate, fading to 0 while no stance is found."""
-    agreed = state.accepted - state.released
-    share = agreed / max(1, state.accepted + state.rejected)
+    share = state.accepted / max(1, state.accepted + state.rejected)
     return float(share * max(0.0, 1.0 - since_zero_velocity_s / LOST_AFTER_S))

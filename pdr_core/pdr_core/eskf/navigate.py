@@ -2,18 +2,19 @@
 
 from typing import NamedTuple
 
-from pdr_core.conventions import GAP_NS, NO_STAMP
+from pdr_core.conventions import GAP_NS
 from pdr_core.eskf.align import align
+from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
-from pdr_core.eskf.step_events import stance_is_over, stand
-from pdr_core.eskf.updates import zero_rate, zero_velocity
+from pdr_core.eskf.step_events import roam, stance_is_over, stand
+from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Triple, Vector, difference, mean, row
+from pdr_core.maths.vector import Triple, Vector, difference, row
 from pdr_core.records import NavBlock, StanceBlock
-from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
 
@@ -27,6 +28,7 @@ class Sample(NamedTuple):
     accel_sd_mps2: float
     gyro_sd_radps: float
     stance: bool
+    zero_velocity_sd_mps: float
     rest_rate_radps: Triple
     rest_sd_radps: float
 
@@ -42,6 +44,7 @@ def sample(block: StanceBlock, i: int) -> Sample:
         imu.accel_sd_mps2[i],
         imu.gyro_sd_radps[i],
         block.stance[i],
+        block.zero_velocity_sd_mps[i],
         row(block.rest_rate_radps, i),
         block.rest_sd_radps[i],
     )
@@ -56,8 +59,9 @@ def sample_step(now: Sample, s: Settings, state: FilterState) -> None:
         propagate(now, s, state)
         if now.rest_sd_radps > 0.0:
             zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
-        if now.stance and zero_velocity(now.stamp_ns, s, state):
-            stand(now.stamp_ns, state)
+        roam(state)
+        if now.stance:
+            stand_still(now, s, state)
         since_s = (now.stamp_ns - state.last_accepted_ns) * 1e-9
         state.longest_swing_s = max(since_s, state.longest_swing_s)
     state.last_ns = now.stamp_ns
@@ -65,6 +69,17 @@ def sample_step(now: Sample, s: Settings, state: FilterState) -> None:
     state.last_rate_radps[:] = now.rate_radps
     state.last_gyro_sd_radps = now.gyro_sd_radps
     state.samples += 1
+
+
+@compiled
+def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
+    """Take the verdict that the foot stands into the estimate."""
+    sd_mps = now.zero_velocity_sd_mps if now.zero_velocity_sd_mps > 0.0 else s.zero_velocity_sd_mps
+    if tilt_is_lost(state.P):
+        level(now.force_mps2, sd_mps, state)
+    state.adrift = False
+    if zero_velocity(now.stamp_ns, now.rate_radps, sd_mps, s, state):
+        stand(now.stamp_ns, state)
 
 
 @compiled
@@ -80,8 +95,12 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     state.coasting = False
     force_before = difference(at_start(state.last_force_mps2, now.force_mps2, s.means), state.accel_bias_mps2)
     force_after = difference(now.force_mps2, state.accel_bias_mps2)
-    mean_rate = mean(at_start(state.last_rate_radps, now.rate_radps, s.means), now.rate_radps)
-    rate = difference(mean_rate, state.gyro_bias_radps)
+    rate = mean_rate(
+        difference(at_start(state.last_rate_radps, now.rate_radps, s.means), state.gyro_bias_radps),
+        difference(now.rate_radps, state.gyro_bias_radps),
+        dt_s,
+    )
+    held_m = state.position_m[0], state.position_m[1], state.position_m[2]
     R_before, R_after = advance(
         state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
@@ -91,6 +110,9 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
+    if state.adrift:
+        state.velocity_mps[:] = 0.0
+        state.position_m[:] = held_m
 
 
 @compiled
@@ -111,12 +133,13 @@ def gyro_off(gyro_sd_radps: float, state: FilterState) -> bool:
 def turn_back(dt_ns: int, state: FilterState) -> None:
     """Follow a clock that has jumped back: stamps of the time before would lie in the future."""
     state.last_accepted_ns += dt_ns
-    state.rejecting_since_ns = NO_STAMP
+    state.contradicted_s = 0.0
 
 
 @compiled
 def coast(dt_s: float, s: Settings, state: FilterState) -> None:
-    """Cross a gap: hold the position, forget the velocity, trust everything less."""
+    """Cross a gap: forget the velocity, trust everything less, and hold the position until the foot stands again."""
+    state.adrift = True
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting

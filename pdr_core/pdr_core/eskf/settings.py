@@ -17,6 +17,10 @@ class Settings(NamedTuple):
     initial_yaw_rad: float
     initial_sd: Floats  # (15,)
     zero_velocity_sd_mps: float
+    contact_height_m: float
+    huber: float
     gate: float
-    release_ns: int
+    release_s: float
     merge_ns: int
+    step_min_m: float
+    step_turn_min_rad: float

@@ -24,6 +24,7 @@ LAST_SAMPLE = [
     ("last_rate_radps", np.float64, 3),
     ("last_gyro_sd_radps", np.float64),
     ("coasting", np.bool_),                   # the last interval was not integrated
+    ("adrift", np.bool_),                     # no stance since then: velocity and tilt are unknown
 ]
 ALIGNMENT = [                                 # the first moments, in which gravity alone gives the attitude
     ("aligning", np.bool_),
@@ -34,7 +35,7 @@ ALIGNMENT = [                                 # the first moments, in which grav
 ]
 GATE = [
     ("last_accepted_ns", np.int64),           # of the zero-velocity updates
-    ("rejecting_since_ns", np.int64),         # NO_STAMP: not rejecting
+    ("contradicted_s", np.float64),           # time in stances that contradict the estimate, since one agreed
 ]
 # The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
@@ -43,7 +44,10 @@ STEPS = [
     ("step_number", np.int64),                # of the next step event
     ("end_ns", np.int64, 2),
     ("end_position_m", np.float64, (2, 3)),
+    ("away_m", np.float64),                   # farthest distance from where the foot stood last
+    ("excursion_m", np.float64),              # the farthest between the two ends
     ("end_covariance", np.float64, (2, 3, 3)),
+    ("end_quat_xyzw", np.float64, (2, 4)),
     ("end_yaw_rad", np.float64, 2),
     ("end_yaw_sd_rad", np.float64, 2),
     ("cross", np.float64, (SIZE, 6)),
@@ -51,9 +55,9 @@ STEPS = [
 ]
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),
-    ("accepted", np.int64),                   # zero-velocity updates
-    ("rejected", np.int64),                   # by the innovation gate
-    ("released", np.int64),                   # accepted beyond the gate after a row of rejections
+    ("accepted", np.int64),                   # zero-velocity updates that agree with the estimate
+    ("rejected", np.int64),                   # those that contradict the estimate: they count for little
+    ("doubted", np.int64),                    # how often stances that went on contradicting made it doubt the estimate
     ("gaps", np.int64),
     ("longest_swing_s", np.float64),          # longest time without a zero-velocity update
     ("normalised_innovation", np.float64),    # of the last zero-velocity update
@@ -68,7 +72,7 @@ def fresh_state() -> FilterState:
     state = np.zeros(1, LAYOUT).view(np.recarray)[0]
     state.quat_xyzw[3] = 1.0
     state.aligning = True
-    for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns", "rejecting_since_ns"):
+    for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns"):
         state[stamp] = NO_STAMP
     state.end_ns[:] = NO_STAMP
     return state

@@ -92,7 +92,8 @@ class ZuptFilter:
         return True
 
     def _step_taken(self, known_ns: int) -> list[StepEvent]:
-        step = step_taken(self.state, known_ns + self._answer_due_ns if self.asks else NO_STAMP)
+        due_ns = known_ns + self._answer_due_ns if self.asks else NO_STAMP
+        step = step_taken(self.state, self._settings, due_ns)
         if step is None:
             return []
         if self.asks:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import NO_STAMP, STANDARD_GRAVITY_MPS2
+from pdr_core.intake.clip_stage import ClipRepair
 from pdr_core.intake.noise import channels, sample_noise
 from pdr_core.intake.plausibility import Plausibility, plausible
 from pdr_core.intake.stamp_policy import StampPolicy
@@ -10,18 +11,22 @@ from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
-from pdr_core.records import Flags, ImuBlock, Level, Notice, Stamps
+from pdr_core.records import Flags, ImuBlock, Level, Notice, Stamps, joined
 
 ACCEL_UNITS = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2}
 GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
 
 
 class Ingestion:
-    """Leaves out what is no number, sees to the stamps, converts units, judges saturation and turns the axes."""
+    """Leaves out what is no number, sees to the stamps, converts units, repairs clipped rates and turns the axes.
+
+    Samples at a rate that may be clipped are held back until it has fallen again: for `latency_s` at most.
+    """
 
     def __init__(self, params: IntakeParams) -> None:
         self._params = params
         self._stamps = StampPolicy(params)
+        self._clip_repair = ClipRepair(params)
         self._gyro, self._accel = channels(params)
         self._last_ns = NO_STAMP
         self._plausibility = Plausibility()
@@ -31,12 +36,18 @@ class Ingestion:
         )
 
     def run(self, raw: ImuBlock) -> ImuBlock:
-        """Return the samples of `raw`, and one that waited, that can be used, in SI units, foot axes, with noise."""
-        return self._conditioned(self._stamps.run(self._numbers(raw)))
+        """Return what can be used of these samples and of those that waited: in SI units, foot axes, with noise."""
+        return self._conditioned(*self._repaired(self._stamps.run(self._numbers(raw))))
 
     def finish(self) -> ImuBlock:
-        """Return the sample that still waits for a later one, if one does."""
-        return self._conditioned(self._stamps.finish())
+        """Return the samples that still wait for later ones."""
+        last = self._conditioned(*self._repaired(self._stamps.finish()))
+        return joined([last, self._conditioned(*self._clip_repair.finish())])
+
+    @property
+    def latency_s(self) -> float:
+        """The longest time [s] for which a sample with a good stamp is held back."""
+        return self._params.clip_longest_s
 
     @property
     def notices(self) -> list[Notice]:
@@ -51,10 +62,13 @@ class Ingestion:
         self._note("not_finite", "samples hold NaN, infinity or absurd numbers: left out", ~good, raw.stamp_ns)
         return ImuBlock._make(column[good] for column in raw)
 
-    def _conditioned(self, good: ImuBlock) -> ImuBlock:
+    def _repaired(self, good: ImuBlock) -> tuple[ImuBlock, Flags]:
         si = self._in_si_units(good)
         self._plausibility.watch(si, self._tally)
-        return self._in_foot_axes(self._with_noise(si))
+        return self._clip_repair.run(si)
+
+    def _conditioned(self, si: ImuBlock, clipped: Flags) -> ImuBlock:
+        return self._in_foot_axes(self._with_noise(si, clipped))
 
     def _in_si_units(self, block: ImuBlock) -> ImuBlock:
         return block._replace(
@@ -62,8 +76,8 @@ class Ingestion:
             accel_mps2=block.accel_mps2 * ACCEL_UNITS[self._params.accel_unit],
         )
 
-    def _with_noise(self, si: ImuBlock) -> ImuBlock:
-        gyro_sd, accel_sd, gyro_full, accel_full = sample_noise(si, self._last_ns, self._gyro, self._accel)
+    def _with_noise(self, si: ImuBlock, clipped: Flags) -> ImuBlock:
+        gyro_sd, accel_sd, gyro_full, accel_full = sample_noise(si, clipped, self._last_ns, self._gyro, self._accel)
         if len(si.stamp_ns):
             self._last_ns = int(si.stamp_ns[-1])
         self._note("gyro_saturated", "the gyro saturates: choose a larger range", gyro_full, si.stamp_ns)

@@ -65,6 +65,15 @@ def yaw_rad(q: Quaternion) -> float:
 
 
 @compiled
+def turn_about_up_rad(before: Quaternion, after: Quaternion) -> float:
+    """Return by how much a body has turned about the vertical, -pi..pi, however it is mounted (swing and twist)."""
+    z = after[2] * before[3] - after[3] * before[2] - after[0] * before[1] + after[1] * before[0]
+    w = after[3] * before[3] + after[0] * before[0] + after[1] * before[1] + after[2] * before[2]
+    turn = 2.0 * np.arctan2(z, w)
+    return turn - 2.0 * np.pi * np.round(turn / (2.0 * np.pi))
+
+
+@compiled
 def from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Four:
     """Return the quaternion of roll, pitch, yaw about the fixed axes x, y, z (REP-103)."""
     cr, sr = np.cos(0.5 * roll_rad), np.sin(0.5 * roll_rad)

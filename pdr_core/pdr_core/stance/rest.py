@@ -35,6 +35,7 @@ class RestLimits(NamedTuple):
     later_ns: int
     floor_radps: float
     turn_rad: float
+    drift_radps2: float
 
 
 class RestState(NamedTuple):
@@ -139,7 +140,7 @@ def best_window(limits: RestLimits, state: RestState) -> tuple[Floats, float]:
         while end_ns - length_ns >= start_ns:
             first = np.searchsorted(state.stamp_ns[: state.size[0]], end_ns - length_ns)
             last = np.searchsorted(state.stamp_ns[: state.size[0]], end_ns)
-            sd = window_sd(state, first, last, limits)
+            sd = np.hypot(window_sd(state, first, last, limits), limits.drift_radps2 * (stop_ns - end_ns) * 1e-9)
             if last - first > 4 and (best_sd == 0.0 or sd < best_sd):
                 duration_s = (state.stamp_ns[last - 1] - state.stamp_ns[first]) * 1e-9
                 rate = (state.angle_rad[last - 1] - state.angle_rad[first]) / duration_s

@@ -7,8 +7,20 @@ velocity, which counts the acceleration twice; Gui eq. 6-7 move it by the mean v
 
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised, rows
-from pdr_core.maths.vector import Rows, Vector, difference, mean, rotated, scaled
+from pdr_core.maths.vector import Rows, Triple, Vector, added, cross, difference, mean, rotated, scaled
 from pdr_core.records import Floats
+
+
+@compiled
+def mean_rate(before_radps: Vector, after_radps: Vector, dt_s: float) -> Triple:
+    """Return the rate [rad/s] whose steady turn over the interval adds up to the true one, from those at its ends.
+
+    Gui and Zhou take one rate for the interval. That misses twice what dt^2 / 12 (before x after) turns. Once because
+    the axis moves within the interval (coning: the second term of Bortz 1971, 1/2 angle x rate). And once because the
+    mean of the ends is off by dt^2 / 12 times the second derivative w" of the rate: in a frame that turns these do not
+    cancel, the sum of R w" over a motion between two rests is, by parts, that of -R (w x w').
+    """
+    return added(mean(before_radps, after_radps), scaled(dt_s / 6.0, cross(before_radps, after_radps)))
 
 
 @compiled

@@ -77,7 +77,7 @@ def judged(imu, stance, rest_rate=None, rest_sd=None):
     """Return samples with given verdicts."""
     n = len(imu.stamp_ns)
     rate, sd = np.zeros((n, 3)) if rest_rate is None else rest_rate, np.zeros(n) if rest_sd is None else rest_sd
-    return StanceBlock(imu, np.asarray(stance, bool), np.zeros(n), np.ones(n), rate, sd)
+    return StanceBlock(imu, np.asarray(stance, bool), np.zeros(n), np.ones(n), np.zeros(n), rate, sd)
 
 
 def standing(seconds, rate_hz=200.0, start_ns=0, gyro_sd=0.014, accel_sd=0.2):

@@ -159,7 +159,7 @@ def test_alignment_ends_when_the_clock_jumps_back_in_it():
 def test_a_clock_that_jumps_back_does_not_lock_the_gate_nor_raise_the_quality():
     f = fresh()
     f.run(judged(standing(1.0, start_ns=10**15), np.ones(200, bool)))
-    f.state.rejecting_since_ns = f.state.last_ns
+    f.state.contradicted_s = 0.05
     f.run(judged(standing(0.1), np.zeros(20, bool)))
     assert 0.0 <= f.health.quality <= 1.0
     assert 0.0 <= f.health.since_zero_velocity_s < 1.0

@@ -2,12 +2,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from filter_cases import judged, moved, random_state, transition
+from filter_cases import judged, moved, random_state, standing, transition
+from scipy.spatial.transform import Rotation
 from test_eskf_filter import JUDGED, STANCE_ENDS, WALK, fresh
 
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.process import carry, noise, propagate_covariance
-from pdr_core.eskf.step_events import begin_next, stand
+from pdr_core.eskf.step_events import begin_next, roam, stand
 from pdr_core.eskf.updates import zero_velocity
 from pdr_core.params import FilterParams, PlaceParams
 from pdr_core.records import joined, part
@@ -52,6 +53,34 @@ def test_a_short_interruption_belongs_to_the_stance():
     assert len(steps) == 10
 
 
+def standing_events(*events):
+    """Let the true foot do (what it is away from its place [m], turn about the vertical [rad]); return the steps."""
+    f = fresh()
+    f.run(judged(standing(1.0), np.ones(200, bool)))
+    taken, now_ns = [], int(f.state.last_ns)
+    for away_m, turn_rad in events:
+        now_ns += 400_000_000
+        f.state.position_m[0] += away_m
+        roam(f.state)
+        f.state.position_m[0] -= away_m
+        f.state.quat_xyzw[:] = (Rotation.from_euler("z", turn_rad) * Rotation.from_quat(f.state.quat_xyzw)).as_quat()
+        taken += f.run(judged(standing(0.5, start_ns=now_ns), np.ones(100, bool)))[1]
+        now_ns = int(f.state.last_ns)
+    return taken + f.finish()
+
+
+def test_a_person_who_fidgets_takes_no_step():
+    assert standing_events((0.03, 0.1), (0.0, -0.2), (0.04, 0.0)) == []
+
+
+@pytest.mark.parametrize("step", [(0.1, 0.0), (0.0, 0.6), (0.0, -1.5)])
+def test_a_step_on_the_spot_and_a_turn_on_the_spot_are_steps(step):
+    fidget = (0.02, 0.05)
+    steps = standing_events(fidget, step, fidget)
+    assert [s.index for s in steps] == [1]
+    assert steps[0].length_m < 0.05
+
+
 def test_steps_do_not_depend_on_how_the_stream_is_cut():
     f, g = fresh(), fresh()
     whole = f.run(JUDGED)
@@ -63,9 +92,12 @@ def test_steps_do_not_depend_on_how_the_stream_is_cut():
 
 
 def dense_update(P, H, R, rows):
-    """Update like the filter: the gain of the error rows alone, none for gyro bias and for the remembered position."""
-    S = H @ P @ H.T + R
-    K = np.where(rows[:, None], P @ H.T @ np.linalg.inv(S), 0.0)
+    """Update like the filter: the gain of the error rows alone, none for gyro bias and for the remembered position.
+
+    The gain is that of a known yaw.
+    """
+    given_yaw = P - np.outer(P[:, 8], P[8]) / P[8, 8]
+    K = np.where(rows[:, None], given_yaw @ H.T @ np.linalg.inv(H @ given_yaw @ H.T + R), 0.0)
     rest = np.eye(len(P)) - K @ H
     return rest @ P @ rest.T + K @ R @ K.T
 
@@ -89,7 +121,7 @@ def test_the_covariance_of_a_displacement_is_that_of_a_filter_with_a_cloned_stat
         carry(link, state.cross)
         if k % 20 >= 10:
             state.velocity_mps[:] = 0.0
-            assert zero_velocity(k, SETTINGS, state)
+            assert zero_velocity(k, state.gyro_bias_radps, SETTINGS.zero_velocity_sd_mps, SETTINGS, state)
             P = dense_update(P, H, R, rows)
     stand(10**9, state)
     difference = np.hstack([np.eye(3), np.zeros((3, 12)), -np.eye(3)])

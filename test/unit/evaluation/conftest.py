@@ -29,7 +29,9 @@ def stance_block(stamp_ns, stance, statistic=None):
     n, stamps = len(stamp_ns), np.asarray(stamp_ns, dtype=np.int64)
     imu = ImuBlock(stamps, np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n))
     statistic = np.where(stance, 5.0, 500.0) if statistic is None else np.asarray(statistic, dtype=float)
-    return StanceBlock(imu, np.asarray(stance, dtype=bool), statistic, np.full(n, 30.0), np.zeros((n, 3)), np.zeros(n))
+    return StanceBlock(
+        imu, np.asarray(stance, dtype=bool), statistic, np.full(n, 30.0), np.zeros(n), np.zeros((n, 3)), np.zeros(n)
+    )
 
 
 def steps_at(position_m, stamp_ns=None):

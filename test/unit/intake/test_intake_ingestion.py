@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import IntakeParams
-from pdr_core.records import ImuBlock, Level, length, part
+from pdr_core.records import ImuBlock, Level, joined, length, part
 
 MS, BEGIN_NS = 1_000_000, 10**18
 
@@ -18,7 +18,7 @@ def still(n=20, period_ms=10, begin_ns=BEGIN_NS):
 
 def taken(imu, **params):
     intake = Ingestion(IntakeParams(**params))
-    return intake.run(imu), {n.kind: n for n in intake.notices}
+    return joined([intake.run(imu), intake.finish()]), {n.kind: n for n in intake.notices}
 
 
 def only(notices, kind):
@@ -53,9 +53,9 @@ def test_a_saturated_gyro_is_told_and_trusted_less():
     notice = only(notices, "gyro_saturated")
     assert (notice.level, notice.count) == (Level.WARN, 1)
     assert notice.text == "the gyro saturates: choose a larger range"
-    assert out.gyro_sd_radps[5] == pytest.approx(np.hypot(0.01, 1.0))  # .001 / sqrt(.01 s)
-    assert out.gyro_sd_radps[6] == pytest.approx(0.01)
-    np.testing.assert_allclose(out.accel_sd_mps2[1:], 0.15)
+    assert out.gyro_sd_radps[5] == pytest.approx(np.sqrt(0.001**2 + (0.0005 * 34.9) ** 2 + 0.03**2) / 0.1, rel=1e-4)
+    assert out.gyro_sd_radps[6] == pytest.approx(0.01, rel=1e-3)  # .001 / sqrt(.01 s)
+    np.testing.assert_allclose(out.accel_sd_mps2[1:], 0.15, rtol=1e-6)
 
 
 def test_a_saturated_accelerometer_is_told_and_trusted_less():
@@ -63,7 +63,7 @@ def test_a_saturated_accelerometer_is_told_and_trusted_less():
     imu.accel_mps2[5, 0] = 156.9
     out, notices = taken(imu)
     assert only(notices, "accel_saturated").text == "the accelerometer saturates: choose a larger range"
-    assert out.accel_sd_mps2[5] == pytest.approx(np.hypot(0.15, 20.0))
+    assert out.accel_sd_mps2[5] == pytest.approx(np.sqrt(0.015**2 + (0.003 * 147.4) ** 2 + 1.4**2) / 0.1, rel=1e-3)
 
 
 def test_a_gyro_that_is_off_is_told_and_marked():
@@ -78,9 +78,9 @@ def test_a_gyro_that_is_off_is_told_and_marked():
 
 def test_the_noise_of_a_sample_follows_from_density_and_interval():
     out, _ = taken(still(period_ms=40), gyro_noise_density=0.002, accel_noise_density=0.03)
-    np.testing.assert_allclose(out.gyro_sd_radps[1:], 0.002 / np.sqrt(0.04))
-    np.testing.assert_allclose(out.accel_sd_mps2[1:], 0.03 / np.sqrt(0.04))
-    assert out.gyro_sd_radps[0] == pytest.approx(0.002 / np.sqrt(0.1))  # nothing before it: as after a gap
+    np.testing.assert_allclose(out.gyro_sd_radps[1:], 0.002 / np.sqrt(0.04), rtol=1e-4)
+    np.testing.assert_allclose(out.accel_sd_mps2[1:], 0.03 / np.sqrt(0.04), rtol=1e-4)
+    assert out.gyro_sd_radps[0] == pytest.approx(0.002 / np.sqrt(0.1), rel=1e-4)  # nothing before it: as after a gap
 
 
 def test_units_are_converted():

@@ -21,7 +21,7 @@ def estimated(pieces, flush):
     navs, steps = [], []
     for piece in pieces:
         judged = [stance.run(intake.run(piece))]
-        judged += [stance.finish()] if flush or piece is pieces[-1] else []
+        judged += [stance.run(intake.finish()), stance.finish()] if flush or piece is pieces[-1] else []
         for block in judged:
             nav, taken = walk.run(block)
             navs.append(nav)

@@ -22,7 +22,7 @@ G = gravity_mps2(np.radians(45.0))
 
 def with_verdicts(imu, stance):
     n = len(imu.stamp_ns)
-    return StanceBlock(imu, stance, np.zeros(n), np.ones(n), np.zeros((n, 3)), np.zeros(n))
+    return StanceBlock(imu, stance, np.zeros(n), np.ones(n), np.zeros(n), np.zeros((n, 3)), np.zeros(n))
 
 
 @pytest.mark.parametrize("walk", ["straight", "rectangle"])
@@ -38,7 +38,8 @@ def test_a_walk_of_100_m_without_noise_and_with_true_verdicts_returns_the_truth(
     assert error[-1] < 0.0005 * path_length_m(sim.motion.position_m)  # 0.05 %
     assert np.sqrt(np.mean(error**2)) < 0.0005 * path_length_m(sim.motion.position_m)
     turn = (Rotation.from_quat(nav.quat_xyzw).inv() * Rotation.from_quat(sim.motion.quat_xyzw)).magnitude()
-    assert turn.max() < 0.002
+    # The trapezium of a turn on the spot in .5 s, at 100 Hz, errs by 5e-4, and no stance tells the yaw: four turns.
+    assert turn.max() < 0.0025
 
 
 def between_samples(phases, rate_hz):
@@ -84,8 +85,9 @@ def normalised_errors(seed, zero_velocity_sd=0.005, rate_hz=100.0):
     rng = np.random.default_rng(seed)
     model = SensorModel(tuple(rng.normal(0, 0.0035, 3)), tuple(rng.normal(0, 0.02, 3)), 1.75e-4, 2.9e-3)
     motion, stamps = between_samples([Phase(3.0), *steps(10), Phase(1.0)], rate_hz)
-    params = changed(Params(), "intake", gyro_noise_density=1.75e-4, accel_noise_density=2.9e-3)
-    params = changed(params, "filter", gravity_source="place", zero_velocity_sd_mps=zero_velocity_sd)
+    white = {"gyro_motion_noise": 0.0, "accel_motion_noise": 0.0}
+    params = changed(Params(), "intake", gyro_noise_density=1.75e-4, accel_noise_density=2.9e-3, **white)
+    params = changed(params, "filter", gravity_source="place", contact_height_m=0.0)
     block = with_verdicts(
         Ingestion(params.intake).run(sensed(stamps, *point_samples(motion, G), rate_hz, model, seed)),
         np.zeros(len(stamps), bool),
@@ -96,7 +98,7 @@ def normalised_errors(seed, zero_velocity_sd=0.005, rate_hz=100.0):
         if motion.stance[i] and not f.state.aligning:
             observed = rng.normal(0, zero_velocity_sd, 3)  # the foot is as still as the filter takes it to be
             f.state.velocity_mps[:] -= observed
-            zero_velocity(int(stamps[i]), f._settings, f.state)
+            zero_velocity(int(stamps[i]), block.imu.gyro_radps[i], zero_velocity_sd, f._settings, f.state)
             f.state.velocity_mps[:] += observed
             if i + 1 < len(stamps) and not motion.stance[i + 1]:
                 turn = (truth[i] * Rotation.from_quat(f.state.quat_xyzw).inv()).as_rotvec()[:2]

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 G = 9.81
 UP = np.array([0.0, 0.0, G])
@@ -81,3 +81,27 @@ def test_gravity_pulls_down_and_rest_stays_at_rest():
     np.testing.assert_array_equal(np.concatenate([position, velocity]), np.zeros(6))
     position, *_ = integrated(lambda _: np.zeros(3), lambda _: np.zeros(3), 1.0, 10)
     np.testing.assert_allclose(position, [0, 0, -G / 2])
+
+
+def swinging_rate(share):
+    """A rate whose axis moves, between two rests."""
+    return np.array([8.0 * np.sin(np.pi * share) ** 2, 6.0 * np.sin(2.0 * np.pi * share) ** 2 * share, 0.0])
+
+
+def turned(pieces, rate):
+    """Turn for a second in equal pieces, each by the rate that `rate` makes of those at its ends."""
+    dt = 1.0 / pieces
+    out = Rotation.identity()
+    for i in range(pieces):
+        out *= Rotation.from_rotvec(np.array(rate(swinging_rate(i * dt), swinging_rate((i + 1) * dt))) * dt)
+    return out
+
+
+def test_a_rate_whose_axis_moves_turns_by_the_mean_and_the_coning():
+    true = turned(20_000, lambda before, after: 0.5 * (before + after))
+    plain = (true.inv() * turned(100, lambda before, after: 0.5 * (before + after))).magnitude()
+    half = (true.inv() * turned(100, lambda b, a: 0.5 * (np.array(mean_rate(b, a, 0.01)) + 0.5 * (b + a)))).magnitude()
+    corrected = (true.inv() * turned(100, lambda b, a: mean_rate(b, a, 0.01))).magnitude()
+    assert plain > 1e-4
+    assert half > 0.4 * plain
+    assert corrected < 0.01 * plain
