@@ -42,6 +42,11 @@ class Bench:
         return self
 
     def __exit__(self, *_: object) -> None:
+        """Leave nothing of the graph behind: at the end of Python dozens of forgotten participants may lock each other."""
+        self.executor.shutdown()
+        for node in (self.node, self.me):
+            if node:
+                node.destroy_node()
         rclpy.try_shutdown()
 
     def hear(self, kind: type, topic: str, qos: object = OWN) -> list:
