@@ -154,12 +154,7 @@ class NodeParams:
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
     )
-    odom_rate_hz: float = parameter(
-        200.0,
-        "estimates are published at most so often, by their stamps; steps always",
-        unit="Hz",
-        bounds=(1.0, 4000.0),
-    )
+    odom_rate_hz: float = parameter(200.0, "odom comes at most so often, by its stamps", unit="Hz", bounds=(1.0, 4e3))
     answer_timeout_s: float = parameter(
         0.5, "a step's heading observation is waited for so long; 0: for ever", unit="s", bounds=(0.0, 60.0)
     )
