@@ -7,7 +7,7 @@ strike suffer from, and the more so the lower the rate. So the noise of a sample
 
     hypot(density / sqrt(interval), share * | change since the sample before |)
 
-and where the sensor saturates a density of its own is added.
+and where the sensor saturates a density of its own is added. No change hides more than the sensor's range.
 """
 
 from typing import NamedTuple
@@ -76,4 +76,5 @@ def saturated(values: Vector, channel: Channel) -> bool:
 def deviation(change: Triple, full: bool, interval_s: float, channel: Channel) -> float:
     """Return the noise of a sample that has changed so much, (3,), in an interval."""
     density = np.hypot(channel.density, channel.saturated_density if full else 0.0)
-    return np.hypot(density / np.sqrt(interval_s), channel.change_share * norm(change))
+    hidden = min(channel.change_share * norm(change), channel.full_scale)
+    return np.hypot(density / np.sqrt(interval_s), hidden)

@@ -33,6 +33,11 @@ def test_noise_grows_with_the_change_from_sample_to_sample():
     assert (gyro[2], accel[2]) == pytest.approx((0.005, 0.05))
 
 
+def test_an_absurd_change_hides_no_more_than_the_range():
+    gyro, accel, *_ = noise(block(REST, ([1e6, 0.0, 0.0], [1e6, 0.0, 0.0])))
+    assert (gyro[1], accel[1]) == pytest.approx((P.gyro_range_radps, P.accel_range_mps2), rel=1e-3)
+
+
 def test_the_sample_before_the_block_counts():
     imu = block(REST, ([1.0, 0.0, 0.0], [0.0, 0.0, 0.0]))
     flags = np.zeros(1, np.bool_)
