@@ -40,19 +40,11 @@ class IntakeParams:
         bounds=(0.0, 10.0),
         source="measured on real walks",
     )
-    gyro_motion_noise: float = parameter(
-        0.0005,
-        "noise density of the gyro per rate",
-        unit="1/sqrt(Hz)",
+    change_noise: float = parameter(
+        0.1,
+        "share of the change from one sample to the next that the interval between them may hide",
         bounds=(0.0, 1.0),
-        source="measured on real walks",
-    )
-    accel_motion_noise: float = parameter(
-        0.003,
-        "noise density of the accelerometer per deviation from gravity",
-        unit="1/sqrt(Hz)",
-        bounds=(0.0, 1.0),
-        source="measured on real walks",
+        source="measured on real walks; a jump at a random moment would be 0.29",
     )
     saturated_gyro_noise_density: float = parameter(
         0.03,
