@@ -42,7 +42,7 @@ class Bench:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Leave nothing of the graph behind: at the end of Python dozens of forgotten participants may lock each other."""
+        """Leave nothing of the graph behind: forgotten participants may lock each other at the end of Python."""
         self.executor.shutdown()
         for node in (self.node, self.me):
             if node:

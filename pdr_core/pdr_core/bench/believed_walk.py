@@ -12,7 +12,8 @@ import numpy as np
 from pdr_core.conventions import NANOSECONDS, gravity_mps2, stamp_ns_from_seconds
 from pdr_core.params import FilterParams, Params, PlaceParams, changed
 from pdr_core.records import Floats, ImuBlock, Stamps
-from pdr_core.simulation.gui_motion import STEP_LENGTH_M, GuiCourse, Phase, steps
+from pdr_core.simulation.courses import gui_rectangle
+from pdr_core.simulation.gui_motion import GuiCourse, Phase
 from pdr_core.simulation.imu_model import SENSOR_MODELS
 from pdr_core.simulation.increments import interval_means
 from pdr_core.simulation.motion import Motion
@@ -38,8 +39,9 @@ class BelievedWalk(NamedTuple):
 
 
 def told() -> Params:
-    """Return the parameters of a suite that knows all there is: a consumer-grade sensor that integrates, with white
-    noise, gravity, and feet that tremble but neither roll nor slip.
+    """Return the parameters of a suite that knows it all.
+
+    A consumer-grade sensor that integrates, white noise, gravity, and feet that tremble but do not roll.
     """
     densities = {name: getattr(CONSUMER, name) for name in ("gyro_noise_density", "accel_noise_density")}
     white = changed(Params(), "intake", gyro_motion_noise=0.0, accel_motion_noise=0.0, **densities)
@@ -49,8 +51,12 @@ def told() -> Params:
 
 
 def ground(length_m: float, rest_s: float = START_S) -> Ground:
-    """Return a straight walk of whole steps, of about `length_m`, after a rest."""
-    phases = [Phase(rest_s), *steps(max(1, round(length_m / STEP_LENGTH_M))), Phase(END_S)]
+    """Return a walk round a rectangle, in whole steps, of about `length_m`, after a rest.
+
+    With corners, as people walk: straight ahead no walk tells an accelerometer bias from a tilt, so that all epochs
+    would share one error, and a hundred walks would be lucky or not together.
+    """
+    phases = [Phase(rest_s), *gui_rectangle(length_m), Phase(END_S)]
     course = GuiCourse(phases)
     time_s = np.arange(round(course.duration_s * RATE_HZ)) / RATE_HZ
     return Ground(stamp_ns_from_seconds(time_s), course.at(time_s))

@@ -23,13 +23,18 @@ def gui_course(name: str, length_m: float) -> Course:
     elif name == "straight":
         phases = steps(max(1, round(length_m / STEP_LENGTH_M)))
     elif name == "rectangle":
-        long_side, short_side = sides(length_m, STEP_LENGTH_M)
-        corner = turn(np.pi / 2.0)
-        phases = (steps(long_side) + corner + steps(short_side) + corner) * 2
+        phases = gui_rectangle(length_m)
     else:
         text = f"simulation.walk = '{name}': Gui's motion knows only level ground; set simulation.motion to smooth"
         raise ParameterError(text)
     return GuiCourse([Phase(REST_S), *phases, Phase(REST_S)])
+
+
+def gui_rectangle(length_m: float) -> list[Phase]:
+    """Return Gui's steps and turns on the spot round a rectangle of about `length_m`."""
+    long_side, short_side = sides(length_m, STEP_LENGTH_M)
+    corner = turn(np.pi / 2.0)
+    return (steps(long_side) + corner + steps(short_side) + corner) * 2
 
 
 def sides(length_m: float, stride_m: float) -> tuple[int, int]:
