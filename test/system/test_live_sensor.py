@@ -105,8 +105,8 @@ def test_nothing_to_hear_is_one_sentence(tmp_path):
 
 def test_a_driver_of_ours_is_started_and_ends_the_run(tmp_path):
     params = tmp_path / "mine.yaml"
-    given = "{walk: straight, walk_length_m: 2.4, sample_rate_hz: 100.0, rate_factor: 4.0}"
-    params.write_text(f"/**: {{ros__parameters: {{driver: {given}}}}}\n")
+    given = "{driver: {rate_factor: 4.0}, simulation: {walk: straight, walk_length_m: 2.4, sample_rate_hz: 100.0}}"
+    params.write_text(f"/**: {{ros__parameters: {given}}}\n")
     answer = pdr("live", "--driver", "simulated", "--params", params, "--out", tmp_path / "out")
     assert answer.returncode == 0, answer.stderr
     assert "in 2 strides" in answer.stdout
