@@ -126,6 +126,9 @@ class SimulationParams:
         source="Gui Table 1",
     )
     sample_rate_hz: float = parameter(200.0, "rate of the sensor", unit="Hz", bounds=(20.0, 4000.0))
+    output: str = parameter(
+        "points", "a sample is the value at its stamp, or the mean since the one before", choices=("points", "means")
+    )
     earth_rate: bool = parameter(False, "the gyro feels the Earth turn", source="Gui eq. 31")
     mounting_roll_rad: float = parameter(
         0.0, "roll of the sensor on the foot, fixed axes", unit="rad", bounds=(-3.15, 3.15)

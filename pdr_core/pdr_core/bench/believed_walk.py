@@ -44,7 +44,7 @@ def told() -> Params:
     A consumer-grade sensor that integrates, white noise, gravity, and feet that tremble but do not roll.
     """
     densities = {name: getattr(CONSUMER, name) for name in ("gyro_noise_density", "accel_noise_density")}
-    white = changed(Params(), "intake", gyro_motion_noise=0.0, accel_motion_noise=0.0, **densities)
+    white = changed(Params(), "intake", change_noise=0.0, **densities)
     return changed(
         white, "filter", samples="means", gravity_source="place", contact_height_m=0.0, huber=white.filter.gate
     )

@@ -8,9 +8,10 @@ from pdr_core.conventions import gravity_mps2, seconds_between, stamp_ns_from_se
 from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.params import PlaceParams, SimulationParams
-from pdr_core.records import Floats, ImuBlock, Truth, TruthKind
+from pdr_core.records import Floats, ImuBlock, Stamps, Truth, TruthKind
 from pdr_core.simulation.courses import foot_course, gui_course
 from pdr_core.simulation.imu_model import SENSOR_MODELS, SensorModel, earth_in_foot, point_samples, sensed
+from pdr_core.simulation.increments import interval_means
 from pdr_core.simulation.motion import Course, Motion
 from pdr_core.simulation.shocks import shocks_mps2
 
@@ -36,7 +37,7 @@ def simulated_walk(
     stamp_ns = stamp_ns_from_seconds(np.arange(round(path.duration_s * rate_hz)) / rate_hz) + start_ns
     time_s = seconds_between(stamp_ns, start_ns)
     motion = path.at(time_s)
-    gyro, accel = felt(params, place or PlaceParams(), motion)
+    gyro, accel = felt(params, place or PlaceParams(), stamp_ns, motion)
     if params.shock_mps2 > 0.0:
         accel = accel + shocks_mps2(time_s, path.strikes_s, params.shock_mps2, params.seed)
     chosen = ranged(model or SENSOR_MODELS[params.sensor_model], params)
@@ -56,10 +57,14 @@ def walk_duration_s(params: SimulationParams) -> float:
     return course(params).duration_s
 
 
-def felt(params: SimulationParams, place: PlaceParams, motion: Motion) -> tuple[Floats, Floats]:
-    """Return the true rate and specific force in the foot frame, (n, 3) each."""
+def felt(params: SimulationParams, place: PlaceParams, stamp_ns: Stamps, motion: Motion) -> tuple[Floats, Floats]:
+    """Return the true rate and specific force in the foot frame, at each stamp or over the interval before, (n, 3)."""
     latitude_rad = float(np.radians(place.latitude_deg))
-    gyro, accel = point_samples(motion, gravity_mps2(latitude_rad, place.height_m))
+    gravity = gravity_mps2(latitude_rad, place.height_m)
+    if params.output == "means":
+        gyro, accel = interval_means(stamp_ns, motion.position_m, motion.velocity_mps, motion.quat_xyzw, gravity)
+    else:
+        gyro, accel = point_samples(motion, gravity)
     return gyro + earth_in_foot(motion, latitude_rad) if params.earth_rate else gyro, accel
 
 

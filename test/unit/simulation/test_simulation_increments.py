@@ -1,6 +1,7 @@
 """The filter's own mechanisation gets back from the means where the foot was."""
 
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from pdr_core.eskf import ZuptFilter
 from pdr_core.params import Params, PlaceParams, SimulationParams, changed
 from pdr_core.records import ImuBlock, StanceBlock, length, part
 from pdr_core.simulation.increments import interval_means
-from pdr_core.simulation.walk import course
+from pdr_core.simulation.walk import course, simulated_walk
 
 G = gravity_mps2(np.radians(45.0))
 LENGTH_M = {"gui": 500.0, "smooth": 800.0}  # ten minutes
@@ -70,3 +71,13 @@ def test_means_taken_for_points_do_not_return():
     position_m, attitude_rad = furthest("gui", ten_minutes(100.0), samples="points")
     assert position_m > 1.0
     assert attitude_rad > 1e-3
+
+
+def test_a_simulated_sensor_gives_means_if_it_is_told_to():
+    asked = SimulationParams(walk="straight", walk_length_m=2.4, sensor_model="ideal", output="means")
+    walk, points = simulated_walk(asked), simulated_walk(replace(asked, output="points"))
+    m, g = walk.motion, gravity_mps2(np.radians(45.0))
+    gyro, accel = interval_means(walk.imu.stamp_ns, m.position_m, m.velocity_mps, m.quat_xyzw, g)
+    np.testing.assert_allclose(walk.imu.gyro_radps, gyro, atol=1e-15)
+    np.testing.assert_allclose(walk.imu.accel_mps2, accel, atol=1e-13)
+    assert np.abs(points.imu.gyro_radps - gyro).max() > 0.01
