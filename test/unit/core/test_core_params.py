@@ -22,7 +22,7 @@ def written(tmp_path, text):
     ("mapping", "text"),
     [
         ({"filtre": {}}, "filtre: unknown group"),
-        ({"filter": {"gaet": 1.0}}, "filter.gaet: unknown parameter; known are alignment_s"),
+        ({"filter": {"gaet": 1.0}}, "filter.gaet: unknown parameter; known are samples"),
         ({"filter": 3}, "filter = 3: must be a mapping"),
         ({"filter": {"gate": 0.5}}, "filter.gate = 0.5: must be float, within 1 .. 1e+09"),
         ({"filter": {"gate": float("nan")}}, "filter.gate = nan"),

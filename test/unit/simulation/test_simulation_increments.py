@@ -25,7 +25,7 @@ def walked(motion, stamp_ns):
     gyro, accel = interval_means(stamp_ns, true.position_m, true.velocity_mps, true.quat_xyzw, G)
     none, zeros = np.zeros(len(stamp_ns)), np.zeros((len(stamp_ns), 3))
     imu = ImuBlock(stamp_ns, gyro, accel, none, none)
-    return StanceBlock(imu, none.astype(bool), none, none + 1.0, zeros, none), true
+    return StanceBlock(imu, none.astype(bool), none, none + 1.0, none, zeros, none), true
 
 
 def furthest(motion, stamp_ns, samples="means"):
