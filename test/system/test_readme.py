@@ -43,7 +43,8 @@ def test_a_command_works(command: str, folder: Path) -> None:
     assert run.returncode == 0, run.stderr
     named = re.findall(r"Open (\S+) in a browser", run.stdout)
     assert all((folder / name).stat().st_size > 1000 for name in named)
-    assert named or ">" in command, "it neither names a report nor writes a file"
+    assert run.stdout.strip() or ">" in command, "it neither says anything nor writes a file"
+    assert "demo" not in command or named
 
 
 def test_the_demo_leaves_what_it_names(folder: Path) -> None:
