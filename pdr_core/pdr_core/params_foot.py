@@ -121,14 +121,8 @@ class FilterParams:
     gate: float = parameter(
         30.0, "normalised innovation squared beyond which a stance contradicts the estimate", bounds=(1.0, 1e9)
     )
-    gate_speed_mps: float = parameter(
-        2.0,
-        "a contradicting stance is first taken for a dip in mid-swing where the foot seems faster than this",
-        unit="m/s",
-        bounds=(0.0, 100.0),
-    )
     gate_release_s: float = parameter(
-        0.15, "after so long in contradicting stances it is the estimate that is doubted", unit="s", bounds=(0.0, 10.0)
+        0.1, "after so long in contradicting stances it is the estimate that is doubted", unit="s", bounds=(0.0, 10.0)
     )
     step_merge_s: float = parameter(
         0.3,

@@ -27,7 +27,6 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         contact_height_m=p.contact_height_m,
         huber=p.huber,
         gate=p.gate,
-        gate_speed_mps=p.gate_speed_mps,
         release_s=p.gate_release_s,
         merge_ns=round(p.step_merge_s * NANOSECONDS),
         step_min_m=p.step_min_m,

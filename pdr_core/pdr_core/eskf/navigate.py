@@ -12,9 +12,9 @@ from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
 from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Triple, difference, mean, row
+from pdr_core.maths.vector import Triple, difference, row
 from pdr_core.records import NavBlock, StanceBlock
-from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
 
@@ -95,7 +95,11 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     state.coasting = False
     force_before = difference(state.last_force_mps2, state.accel_bias_mps2)
     force_after = difference(now.force_mps2, state.accel_bias_mps2)
-    rate = difference(mean(state.last_rate_radps, now.rate_radps), state.gyro_bias_radps)
+    rate = mean_rate(
+        difference(state.last_rate_radps, state.gyro_bias_radps),
+        difference(now.rate_radps, state.gyro_bias_radps),
+        dt_s,
+    )
     held_m = state.position_m[0], state.position_m[1], state.position_m[2]
     R_before, R_after = advance(
         state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2

@@ -19,7 +19,6 @@ class Settings(NamedTuple):
     contact_height_m: float
     huber: float
     gate: float
-    gate_speed_mps: float
     release_s: float
     merge_ns: int
     step_min_m: float

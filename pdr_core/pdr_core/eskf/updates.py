@@ -50,10 +50,10 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
     """Tell the filter that the foot stands, at a measured rate (3,) and with a velocity noise; return if they agree.
 
     A verdict may be wrong, and so may the estimate. An innovation beyond `huber` counts less the larger it is (Huber's
-    weight): R grows by sd^2 (d2 / huber - 1). Beyond the gate it contradicts the estimate. A fast foot that seems to
-    stand may be a dip in mid-swing, and is rejected for a short while. A contradiction that goes on for longer than
-    the release time proves the estimate wrong: its covariance is raised until it agrees with the stance. So nothing
-    locks the filter out.
+    weight): R grows by sd^2 (d2 / huber - 1). Beyond the gate it contradicts the estimate, but is never rejected: a dip
+    in mid-swing hardly counts, and where the contradiction goes on for longer than the release time, it is the
+    estimate that is wrong, and its covariance is raised until it agrees with the stance. So nothing locks the filter
+    out.
     """
     rolling = zupt.rolling_velocity(state.quat_xyzw, difference(rate_radps, state.gyro_bias_radps), s.contact_height_m)
     residual = zupt.residual(rolling, state.velocity_mps)
@@ -67,16 +67,14 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
         doubt(stamp_ns, norm(residual), state)
         y, given = weighed(residual, sd_mps, state)
         d2 = normalised_squared(given)
-    elif not agrees and norm(residual) > s.gate_speed_mps:
-        state.rejected += 1
-        return False
     if d2 > s.huber:
         y, given = weighed(residual, sd_mps * np.sqrt(d2 / s.huber), state)
-    else:
-        state.agreed += 1
     apply(y, zupt.H, zupt.without_gyro_bias(gain(given)), state)
-    state.last_accepted_ns = stamp_ns
-    state.accepted += 1
+    if agrees:
+        state.accepted += 1
+        state.last_accepted_ns = stamp_ns
+    else:
+        state.rejected += 1
     return agrees
 
 

@@ -7,8 +7,19 @@ velocity, which counts the acceleration twice; Gui eq. 6-7 move it by the mean v
 
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised, rows
-from pdr_core.maths.vector import Rows, Vector, difference, mean, rotated, scaled
+from pdr_core.maths.vector import Rows, Triple, Vector, added, cross, difference, mean, rotated, scaled
 from pdr_core.records import Floats
+
+
+@compiled
+def mean_rate(before_radps: Vector, after_radps: Vector, dt_s: float) -> Triple:
+    """Return the rate whose steady turn is that of a rate which changes evenly over an interval.
+
+    Gui and Zhou take one rate for the interval. Where its axis moves, the turns do not commute, and what they add up to
+    differs from the turn by the mean rate (coning, Bortz 1971): by dt^2 / 12 (before x after), from the second term of
+    his equation, 1/2 (angle x rate), integrated over the interval.
+    """
+    return added(mean(before_radps, after_radps), scaled(dt_s / 12.0, cross(before_radps, after_radps)))
 
 
 @compiled

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 G = 9.81
 UP = np.array([0.0, 0.0, G])
@@ -81,3 +81,15 @@ def test_gravity_pulls_down_and_rest_stays_at_rest():
     np.testing.assert_array_equal(np.concatenate([position, velocity]), np.zeros(6))
     position, *_ = integrated(lambda _: np.zeros(3), lambda _: np.zeros(3), 1.0, 10)
     np.testing.assert_allclose(position, [0, 0, -G / 2])
+
+
+def test_an_evenly_changing_rate_turns_by_its_mean_and_the_coning():
+    before, after, dt, pieces = np.array([3.0, 0.0, 1.0]), np.array([1.0, 4.0, -2.0]), 0.02, 2000
+    share = (np.arange(pieces) + 0.5) / pieces
+    true = Rotation.identity()
+    for s in share:
+        true *= Rotation.from_rotvec((before + s * (after - before)) * dt / pieces)
+    plain = (true.inv() * Rotation.from_rotvec((before + after) / 2 * dt)).magnitude()
+    corrected = (true.inv() * Rotation.from_rotvec(np.array(mean_rate(before, after, dt)) * dt)).magnitude()
+    assert plain > 1e-4
+    assert corrected < 0.01 * plain
