@@ -2,7 +2,7 @@
 
 Each is scored by its ATE2 in percent of the distance. A trouble that hides the motion parts the track, for nobody can
 know how the foot went on: the parts before it, and after two strides of good stance behind it, are aligned each by
-itself, and the worse one counts.
+itself, and the worse one counts. The suite is told nothing of a sensor but the ranges on its data sheet.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,14 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pdr_core.bench.stress_ranges import FAILED_PERCENT, Ranges
+from pdr_core.bench.stress_ranges import FAILED_PERCENT, RANGES
 from pdr_core.bench.stress_trouble import ordeal
-from pdr_core.bench.stress_walk import Drawn, drawn
+from pdr_core.bench.stress_walk import NO_TROUBLE, Drawn, drawn
 from pdr_core.evaluation.metrics import ate2_m, path_length_m, percent
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import joined
 
-RATE_BANDS_HZ = (100.0, 200.0, 400.0, 1000.0)
+BANDS_HZ = ((100.0, 200.0), (200.0, 400.0), (400.0, 1000.0))
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class StressResult:
 
     @property
     def worst_percent(self) -> float:
-        """The worse part; infinite where the filter is lost altogether."""
+        """The worse part; infinite where the track is no number."""
         return max(x if np.isfinite(x) else np.inf for x in self.ate2_percent)
 
     @property
@@ -41,16 +41,15 @@ class StressResult:
 
 
 @dataclass(frozen=True)
-class StressSummary:
-    """All walks: figures in percent of the distance, and how many failed of how many, by trouble and by rate."""
+class StressRow:
+    """The figures of all walks of one kind, in percent of the distance."""
 
+    kind: str
     walks: int
     failed: int
     median_percent: float
     high_percent: float  # 95th percentile
     worst_percent: float
-    by_trouble: dict[str, tuple[int, int]]
-    by_rate: dict[str, tuple[int, int]]
 
 
 def stress(seeds: Sequence[int], seen: Callable[[str], object] = str) -> list[StressResult]:
@@ -58,14 +57,13 @@ def stress(seeds: Sequence[int], seen: Callable[[str], object] = str) -> list[St
     results = []
     for seed in seeds:
         results.append(result(drawn(seed)))
-        seen(str(len(results)))
+        seen(f"{len(results)} of {len(seeds)}")
     return results
 
 
-def result(d: Drawn, ranges: Ranges | None = None) -> StressResult:
+def result(d: Drawn) -> StressResult:
     """Run the walk that was drawn through the whole chain."""
-    it = ordeal(d, ranges)
-    chain = FootInertial(d.told)
+    it, chain = ordeal(d), FootInertial(d.told)
     nav = joined([chain.run(it.imu).nav, chain.finish().nav])
     row = np.searchsorted(it.imu.stamp_ns, nav.stamp_ns)
     scores = []
@@ -76,28 +74,18 @@ def result(d: Drawn, ranges: Ranges | None = None) -> StressResult:
     return StressResult(d, path_length_m(it.position_m), tuple(scores), tuple(n.kind for n in chain.notices))
 
 
-def summary(results: Sequence[StressResult]) -> StressSummary:
-    """Return the figures of all walks."""
+def summary(results: Sequence[StressResult]) -> list[StressRow]:
+    """Return the figures of all walks, of those with each trouble and of those in each band of rates."""
+    kinds = {"all": list(results)}
+    for name in (NO_TROUBLE.name, *(trouble.name for trouble in RANGES.troubles)):
+        kinds[f"trouble: {name}"] = [r for r in results if r.drawn.trouble.name == name]
+    for low, high in BANDS_HZ:
+        kinds[f"{low:.0f} to {high:.0f} Hz"] = [r for r in results if low <= r.drawn.rate_hz < high]
+    return [figures(kind, some) for kind, some in kinds.items() if some]
+
+
+def figures(kind: str, results: Sequence[StressResult]) -> StressRow:
+    """Return the figures of some walks, at least one."""
     worst = np.array([r.worst_percent for r in results])
-    median, high = (float(x) for x in np.percentile(worst, [50.0, 95.0]))
-    failed = sum(r.failed for r in results)
-    by_trouble, by_rate = (failures(results, kind) for kind in (trouble_of, band_of))
-    return StressSummary(len(results), failed, median, high, float(worst.max()), by_trouble, by_rate)
-
-
-def failures(results: Sequence[StressResult], kind: Callable[[StressResult], str]) -> dict[str, tuple[int, int]]:
-    """Return failures and walks of each kind."""
-    kinds = sorted({kind(r) for r in results})
-    of = {k: [r.failed for r in results if kind(r) == k] for k in kinds}
-    return {k: (sum(flags), len(flags)) for k, flags in of.items()}
-
-
-def trouble_of(result: StressResult) -> str:
-    """Return what went wrong."""
-    return result.drawn.trouble.name
-
-
-def band_of(result: StressResult) -> str:
-    """Return the band in which the rate lies."""
-    i = int(np.searchsorted(RATE_BANDS_HZ, result.drawn.rate_hz, side="right"))
-    return f"{RATE_BANDS_HZ[i - 1]:.0f} .. {RATE_BANDS_HZ[min(i, len(RATE_BANDS_HZ) - 1)]:.0f} Hz"
+    median, high, highest = (float(np.percentile(worst, q, method="higher")) for q in (50.0, 95.0, 100.0))
+    return StressRow(kind, len(results), sum(r.failed for r in results), median, high, highest)

@@ -77,5 +77,6 @@ class Ranges:
     fall_mps2: float = 30.0
 
 
+RANGES = Ranges()
 FAILED_PERCENT = 3.0  # ATE2 of the distance
 STRIDES_BACK = 2  # of good stance, after which the track must be right again

@@ -1,12 +1,11 @@
 """A walk of the stress test: what a seed draws from the ranges, and what the sensor gave on it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pdr_core.bench.stress_ranges import Range, Ranges, Stretch, Trouble
+from pdr_core.bench.stress_ranges import RANGES, Stretch, Trouble
 from pdr_core.conventions import STANDARD_GRAVITY_MPS2
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.records import Floats
@@ -40,7 +39,7 @@ class Drawn:
     def text(self) -> str:
         """Everything in one line."""
         strides = ", ".join(f"{n} {name} at {pace:.2f}" for name, pace, n in self.stretches)
-        gyro_dps, accel_g = np.degrees(self.sensor.gyro_range_radps), self.sensor.accel_range_mps2 / 9.80665
+        gyro_dps, accel_g = np.degrees(self.sensor.gyro_range_radps), self.sensor.accel_range_mps2 / STANDARD_GRAVITY_MPS2
         sensor = f"{self.rate_hz:.0f} Hz, {gyro_dps:.0f} deg/s, {accel_g:.0f} g, shocks {self.shock_mps2:.0f} m/s^2"
         trouble = f"{self.trouble.name} {self.amount:.2g} {self.trouble.unit} at {self.at:.0%}"
         return f"{sensor}; {trouble if self.trouble != NO_TROUBLE else 'no trouble'}; {strides}"
@@ -52,10 +51,10 @@ class Drawn:
         return changed(Params(), "intake", gyro_range_radps=gyro, accel_range_mps2=accel)
 
 
-def drawn(seed: int, ranges: Ranges | None = None) -> Drawn:
+def drawn(seed: int) -> Drawn:
     """Draw a walk."""
-    r, rng = ranges or Ranges(), np.random.default_rng([seed, STRESS])
-    stretches, strides = drawn_strides(r, rng)
+    r, rng = RANGES, np.random.default_rng([seed, STRESS])
+    stretches, strides = drawn_strides(rng)
     troubled = rng.random() < r.troubled
     trouble = r.troubles[rng.integers(len(r.troubles))] if troubled else NO_TROUBLE
     return Drawn(
@@ -63,7 +62,7 @@ def drawn(seed: int, ranges: Ranges | None = None) -> Drawn:
         tuple(stretches),
         tuple(strides),
         float(np.exp(rng.uniform(*np.log(r.rate_hz)))),
-        drawn_sensor(r, rng),
+        drawn_sensor(rng),
         rng.uniform(*r.shock_mps2),
         Rotation.random(random_state=rng),
         trouble,
@@ -73,33 +72,32 @@ def drawn(seed: int, ranges: Ranges | None = None) -> Drawn:
     )
 
 
-def drawn_strides(r: Ranges, rng: np.random.Generator) -> tuple[list[tuple[str, float, int]], list[Stride]]:
+def drawn_strides(rng: np.random.Generator) -> tuple[list[tuple[str, float, int]], list[Stride]]:
     """Return stretches until the distance is walked, and their strides."""
-    distance_m, walked_m = rng.uniform(*r.distance_m), 0.0
+    distance_m, path_m = rng.uniform(*RANGES.distance_m), 0.0
     stretches: list[tuple[str, float, int]] = []
     strides: list[Stride] = []
-    while walked_m < distance_m:
-        stretch = r.stretches[rng.integers(len(r.stretches))]
+    while path_m < distance_m:
+        stretch = RANGES.stretches[rng.integers(len(RANGES.stretches))]
         pace, count = rng.uniform(*stretch.pace), int(rng.integers(stretch.strides[0], stretch.strides[1] + 1))
-        some = strides_of(stretch, pace, count, r.uneven, rng)
+        some = strides_of(stretch, pace, count, rng)
         stretches.append((stretch.name, pace, count))
         strides += some
-        walked_m += sum(s.gait.length_m for s in some)
+        path_m += sum(s.gait.length_m for s in some)
     return stretches, strides
 
 
-def strides_of(
-    stretch: Stretch, pace: float, count: int, uneven: Range, rng: np.random.Generator
-) -> Sequence[Stride]:
+def strides_of(stretch: Stretch, pace: float, count: int, rng: np.random.Generator) -> list[Stride]:
     """Return the strides of one stretch."""
     turn_rad = rng.uniform(*stretch.turn_rad) / count
-    gaits = [stretch.gait.paced(pace * rng.uniform(*uneven)) for _ in range(count)]
+    gaits = [stretch.gait.paced(pace * rng.uniform(*RANGES.uneven)) for _ in range(count)]
     strides = [Stride(gait, turn_rad, stretch.climb_m) for gait in gaits]
     return [*strides[:-1], replace(strides[-1], pause_s=rng.uniform(*stretch.pause_s))]
 
 
-def drawn_sensor(r: Ranges, rng: np.random.Generator) -> SensorModel:
+def drawn_sensor(rng: np.random.Generator) -> SensorModel:
     """Return a sensor with biases, noise and ranges of its own."""
+    r = RANGES
     return SensorModel(
         gyro_noise_density=rng.uniform(*r.gyro_noise_density),
         accel_noise_density=rng.uniform(*r.accel_noise_density),
