@@ -1,0 +1,53 @@
+"""Thirty walks of the stress test; `pdr test --full` runs five hundred."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pdr_core.bench import stress_walk
+from pdr_core.bench.stress import StressResult, figures, result, stress, summary
+from pdr_core.bench.stress_walk import NO_TROUBLE, drawn
+from pdr_core.params import Params, changed
+
+SEEDS = range(30)
+RESULTS = stress(SEEDS)
+
+
+def test_no_walk_fails():
+    assert [(r.drawn.seed, r.ate2_percent, r.drawn.text) for r in RESULTS if r.failed] == []
+    overall = summary(RESULTS)[0]
+    assert overall.walks == len(SEEDS)
+    assert overall.median_percent < 0.4  # measured: 0.25
+    assert overall.high_percent < 1.5  # measured: 0.91
+
+
+def test_each_trouble_that_hides_the_motion_is_told():
+    hidden = [r for r in RESULTS if r.drawn.trouble.hides_motion]
+    assert {r.drawn.trouble.name for r in hidden} == {"gap", "clipped", "kicked", "fall"}
+    assert [r.drawn.text for r in hidden if not {"coasted", "estimate_doubted"} & set(r.notices)] == []
+    assert all("coasted" in r.notices for r in hidden if r.drawn.trouble.name == "gap")
+
+
+@pytest.mark.parametrize("spoilt", [{"memory_s": 0.05}, {"relative_share": 0.9}])
+def test_a_suite_that_finds_no_stances_or_too_many_fails(monkeypatch, spoilt):
+    monkeypatch.setattr(stress_walk.Drawn, "told", changed(Params(), "stance", **spoilt))
+    assert result(drawn(0)).failed
+
+
+def fake(ate2_percent, trouble=NO_TROUBLE, rate_hz=100.0):
+    return StressResult(replace(drawn(0), trouble=trouble, rate_hz=rate_hz), 50.0, ate2_percent, ())
+
+
+def test_the_worse_part_counts_and_what_is_no_number_is_the_worst():
+    assert not fake((2.9, 0.1)).failed
+    assert fake((0.1, 3.1)).failed
+    assert fake((0.1, np.nan)).worst_percent == np.inf
+
+
+def test_the_summary_counts_every_walk_once_by_trouble_and_once_by_rate():
+    rows = {row.kind: row for row in summary(RESULTS)}
+    assert sum(row.walks for kind, row in rows.items() if "trouble" in kind) == len(SEEDS)
+    assert sum(row.walks for kind, row in rows.items() if "Hz" in kind) == len(SEEDS)
+    some = figures("some", [fake((x,)) for x in (0.5, 4.0, 1.0, np.nan)])
+    assert (some.walks, some.failed, some.median_percent, some.worst_percent) == (4, 2, 4.0, np.inf)
