@@ -40,19 +40,11 @@ class IntakeParams:
         bounds=(0.0, 10.0),
         source="measured on real walks",
     )
-    gyro_motion_noise: float = parameter(
-        0.0005,
-        "noise density of the gyro per rate",
-        unit="1/sqrt(Hz)",
+    change_noise: float = parameter(
+        0.1,
+        "share of the change from one sample to the next that the interval between them may hide",
         bounds=(0.0, 1.0),
-        source="measured on real walks",
-    )
-    accel_motion_noise: float = parameter(
-        0.003,
-        "noise density of the accelerometer per deviation from gravity",
-        unit="1/sqrt(Hz)",
-        bounds=(0.0, 1.0),
-        source="measured on real walks",
+        source="measured on real walks; a jump at a random moment would be 0.29",
     )
     saturated_gyro_noise_density: float = parameter(
         0.03,
@@ -162,12 +154,7 @@ class NodeParams:
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
     )
-    odom_rate_hz: float = parameter(
-        200.0,
-        "estimates are published at most so often, by their stamps; steps always",
-        unit="Hz",
-        bounds=(1.0, 4000.0),
-    )
+    odom_rate_hz: float = parameter(200.0, "odom comes at most so often, by its stamps", unit="Hz", bounds=(1.0, 4e3))
     answer_timeout_s: float = parameter(
         0.5, "a step's heading observation is waited for so long; 0: for ever", unit="s", bounds=(0.0, 60.0)
     )

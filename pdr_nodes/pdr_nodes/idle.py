@@ -11,13 +11,16 @@ class IdleWatch:
         self._after_s = after_s
         self._finish = finish
         self._last_s: float | None = None
+        self._overdue = False
 
     def fed(self) -> None:
         """Note that a sample came."""
         self._last_s = time.monotonic()
 
     def look(self) -> None:
-        """See whether it is time."""
-        if self._last_s is not None and time.monotonic() - self._last_s > self._after_s:
-            self._last_s = None
+        """See twice whether it is time: where the node itself was held up, what waits is served in between."""
+        overdue = self._last_s is not None and time.monotonic() - self._last_s > self._after_s
+        if overdue and self._overdue:
+            self._last_s, overdue = None, False
             self._finish()
+        self._overdue = overdue

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
@@ -9,20 +10,18 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_policy_name_from_kind
 from rclpy.subscription import Subscription
 
-from pdr_core.records import Level, Notice, joined, length
+from pdr_core.records import Level, Notice, joined
+from pdr_nodes import publishers
 from pdr_nodes.notice_board import NO_INPUT
-from pdr_nodes.publishers import publishers
 from pdr_nodes.repeats import Repeats
 
-BLOCK = 200  # messages taken in one go: then services and timers get their turn
 SILENT_S = 2.0
 
 
 class Input:
-    """Subscribed to while the node is active.
+    """Subscribed to while the node is active. Messages are collected as they come, and given on as one block.
 
-    The messages that wait are taken in one go and given on as one block: the cost of a sample falls where a node
-    cannot keep up, and a stage gives the same for a block as for its samples one by one.
+    So the cost of a sample falls where a node cannot keep up; a stage makes the same of a block as of its samples.
     """
 
     def __init__(
@@ -37,9 +36,9 @@ class Input:
     ) -> None:
         self._node, self._kind, self._topic, self._qos = node, kind, topic, qos
         self._block, self._take = block, take
+        self._blocks: list[tuple] = []  # of one sample each
         self._subscription: Subscription | None = None
-        self._restarts_anew = restarts_anew
-        self._repeats = Repeats()
+        self._repeats = Repeats(frozenset if restarts_anew else partial(publishers.identities, node, topic))
         self._heard_s = 0.0
         self._refused = ""  # the policy for which a publisher does not match
 
@@ -48,13 +47,14 @@ class Input:
         self._heard_s, self._refused = time.monotonic(), ""
         if self._qos.durability == DurabilityPolicy.TRANSIENT_LOCAL:
             self._repeats.expect()
-        events = SubscriptionEventCallbacks(matched=self._matched, incompatible_qos=self._incompatible)
+        events = SubscriptionEventCallbacks(incompatible_qos=self._incompatible)
         self._subscription = self._node.create_subscription(
             self._kind, self._topic, self._heard, self._qos, event_callbacks=events
         )
 
     def end(self) -> None:
-        """Subscribe no more."""
+        """Give on what has come, and subscribe no more."""
+        self.give()
         if self._subscription:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
@@ -66,23 +66,22 @@ class Input:
             return []
         return [*self._silence(), *self._misfit()]
 
-    def _heard(self, first: Any) -> None:
+    @property
+    def waiting(self) -> int:
+        """How many messages have come that were not given on."""
+        return len(self._blocks)
+
+    def give(self) -> None:
+        """Give on what has come."""
+        if self._blocks:
+            blocks, self._blocks = self._blocks, []
+            self._take(joined(blocks) if len(blocks) > 1 else blocks[0])
+
+    def _heard(self, message: Any) -> None:
         self._heard_s = time.monotonic()
-        block = self._repeats.left_out(joined([self._block(message) for message in (first, *self._waiting())]))
-        if length(block):
-            self._take(block)
-
-    def _waiting(self) -> Iterator[Any]:
-        """Take what waits behind the first message; the executor then finds nothing there, which it allows."""
-        for _ in range(BLOCK - 1):
-            taken = self._subscription.handle.take_message(self._kind, False) if self._subscription else None
-            if taken is None:
-                return
-            yield taken[0]
-
-    def _matched(self, info: Any) -> None:
-        if info.current_count_change > 0 and not self._restarts_anew:
-            self._repeats.expect()
+        block = self._block(message)
+        if not self._repeats.has(stamp_ns(block)):
+            self._blocks.append(block)
 
     def _incompatible(self, info: Any) -> None:
         self._refused = qos_policy_name_from_kind(info.last_policy_kind).lower()
@@ -90,7 +89,7 @@ class Input:
     def _silence(self) -> Iterator[Notice]:
         silent_s = time.monotonic() - self._heard_s
         if silent_s > SILENT_S:
-            who = ", ".join(publishers(self._node, self._topic)) or "none"
+            who = ", ".join(publishers.names(self._node, self._topic)) or "none"
             question = f"is its publisher running, is the topic right? Publishers there: {who}"
             yield Notice(Level.WARN, NO_INPUT, f"no samples on {self._name} for {SILENT_S:.0f} s: {question}", 1, 0)
 
@@ -105,3 +104,9 @@ class Input:
     @property
     def _name(self) -> str:
         return self._node.resolve_topic_name(self._topic)
+
+
+def stamp_ns(block: tuple) -> int:
+    """Return the stamp of a block of one sample [ns]."""
+    first = block[0]
+    return stamp_ns(first) if isinstance(first, tuple) else int(first[0])

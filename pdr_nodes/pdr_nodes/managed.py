@@ -7,7 +7,7 @@ nothing comes out; the stage keeps what it knows. cleanup: all is dropped, the n
 
 from collections.abc import Callable
 from contextlib import ExitStack
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
@@ -23,9 +23,8 @@ from pdr_nodes.qos import OWN
 from pdr_nodes.sole_output import SoleOutput
 from pdr_nodes.timer import Timer
 
-LOOK_S = 0.5
+LOOK_S = 0.2  # how often to look whether the node is still wanted
 DONE, FAILED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
-Stream = TypeVar("Stream", Input, SoleOutput)
 
 
 class Part(Protocol):
@@ -49,7 +48,8 @@ class ManagedNode(LifecycleNode):
         self.problem: Exception | None = None  # why the last transition failed
         self._made = ExitStack()  # what cleanup undoes
         self._parts: list[Part] = []
-        self._streams: list[Input | SoleOutput] = []
+        self._inputs: list[Input] = []
+        self._sole_outputs: list[SoleOutput] = []
         self._idle: IdleWatch | None = None
         self._board = NoticeBoard(self, lambda: self.state, self._stream_notices)
         self._serve_change_state = self._service_change_state.callback
@@ -73,6 +73,16 @@ class ManagedNode(LifecycleNode):
         return LOOK_S
 
     @property
+    def waiting(self) -> int:
+        """How many messages have come that the stage has not seen."""
+        return sum(topic.waiting for topic in self._inputs)
+
+    def take_waiting(self) -> None:
+        """Let the stage see them."""
+        for topic in self._inputs:
+            topic.give()
+
+    @property
     def state(self) -> str:
         """One of unconfigured, inactive, active, finalized."""
         return self._state_machine.current_state[1]
@@ -87,7 +97,7 @@ class ManagedNode(LifecycleNode):
         take: Callable,
         qos: QoSProfile = OWN,
         restarts_anew: bool = False,
-    ) -> Input:
+    ) -> None:
         """Give the messages of a topic to `take`, as one block those that wait.
 
         A publisher of ours that is started again says once more what was said, which is left out; a driver
@@ -99,7 +109,8 @@ class ManagedNode(LifecycleNode):
                 self._idle.fed()
             take(block)
 
-        return self._stream(Input(self, kind, topic, qos, block, fed, restarts_anew))
+        self._inputs.append(Input(self, kind, topic, qos, block, fed, restarts_anew))
+        self.part(self._inputs[-1])
 
     def output(self, kind: type, topic: str, qos: QoSProfile = OWN) -> Any:
         """Return a publisher that is silent unless the node is active."""
@@ -109,7 +120,9 @@ class ManagedNode(LifecycleNode):
 
     def sole_output(self, kind: type, topic: str) -> SoleOutput:
         """Return a publisher of what only one node at a time may say; it exists only while the node is active."""
-        return self._stream(SoleOutput(self, kind, topic))
+        self._sole_outputs.append(SoleOutput(self, kind, topic))
+        self.part(self._sole_outputs[-1])
+        return self._sole_outputs[-1]
 
     def service(self, kind: type, name: str, answer: Callable) -> None:
         """Answer a service."""
@@ -132,13 +145,9 @@ class ManagedNode(LifecycleNode):
         """Let something else work while the node is active."""
         self._parts.append(part)
 
-    def _stream(self, stream: Stream) -> Stream:
-        self._streams.append(stream)
-        self.part(stream)
-        return stream
-
     def _stream_notices(self) -> list[Notice]:
-        return [notice for stream in self._streams for notice in stream.notices]
+        of_inputs = [notice for topic in self._inputs for notice in topic.notices]
+        return of_inputs + [notice for topic in self._sole_outputs for notice in topic.notices]
 
     # --- the life of a managed node
 
@@ -160,8 +169,7 @@ class ManagedNode(LifecycleNode):
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Take no more samples, say nothing more."""
-        for part in self._parts:
-            part.end()
+        self._end_all()
         return super().on_deactivate(state)
 
     def on_cleanup(self, _state: LifecycleState) -> TransitionCallbackReturn:
@@ -178,10 +186,13 @@ class ManagedNode(LifecycleNode):
         for part in self._parts:
             part.begin()
 
-    def _drop_all(self) -> None:
-        for part in self._parts:
+    def _end_all(self) -> None:
+        for part in reversed(self._parts):
             part.end()
-        self._parts, self._streams, self._idle = [], [], None
+
+    def _drop_all(self) -> None:
+        self._end_all()
+        self._parts, self._inputs, self._sole_outputs, self._idle = [], [], [], None
         self._board.sources.clear()
         self._made.close()
 

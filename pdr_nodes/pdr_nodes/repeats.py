@@ -1,49 +1,37 @@
 """Leaves out what a topic says once more."""
 
-from typing import TypeVar
-
-import numpy as np
+from collections.abc import Callable
 
 from pdr_core.conventions import NO_STAMP
-from pdr_core.records import Stamps, part
-
-Block = TypeVar("Block", bound=tuple)
 
 
 class Repeats:
     """A stage that is started again gets its latest input once more and passes it on once more, up to now and beyond.
 
-    Only a new connection repeats; where the stamps jump back on an old one, a recording is played in a loop.
+    Only a new publisher repeats; where the stamps of the same one jump back, a recording is played in a loop. So it is
+    asked who publishes when stamps jump back: the event that tells of a new publisher may come after its messages.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, publishers: Callable[[], frozenset]) -> None:
+        self._publishers = publishers
+        self._seen: frozenset = frozenset()
         self._latest_ns = NO_STAMP
         self._known_until_ns = NO_STAMP
 
     def expect(self) -> None:
-        """Note that a new connection may say once more what is known."""
+        """Note that what is known may come once more."""
+        self._seen = self._publishers()
         self._known_until_ns = self._latest_ns
 
-    def left_out(self, block: Block) -> Block:
-        """Return the block without the samples that came before."""
-        stamp_ns = stamps(block)
-        repeated = self._repeated(stamp_ns)
-        if repeated < len(stamp_ns):
-            self._latest_ns = int(stamp_ns[-1])
-        return part(block, repeated)
-
-    def _repeated(self, stamp_ns: Stamps) -> int:
-        """Return how many of the first samples are known; with the first that is not, the repetition is over."""
-        if self._known_until_ns == NO_STAMP:
-            return 0
-        known_ns, beyond = self._known_until_ns, np.flatnonzero(stamp_ns >= self._known_until_ns)
-        if not len(beyond):
-            return len(stamp_ns)
-        self._known_until_ns = NO_STAMP
-        return int(beyond[0]) + int(stamp_ns[beyond[0]] == known_ns)
-
-
-def stamps(block: tuple) -> Stamps:
-    """Return the stamps of a block [ns]."""
-    first = block[0]
-    return stamps(first) if isinstance(first, tuple) else first
+    def has(self, stamp_ns: int) -> bool:
+        """Tell whether the sample of this stamp came before; asked once for each, in order."""
+        first = self._latest_ns == NO_STAMP
+        back = stamp_ns <= self._latest_ns and self._known_until_ns == NO_STAMP
+        if first or (back and self._publishers() - self._seen):
+            self.expect()
+        known = stamp_ns <= self._known_until_ns
+        if stamp_ns >= self._known_until_ns:
+            self._known_until_ns = NO_STAMP
+        if not known:
+            self._latest_ns = stamp_ns
+        return known

@@ -5,49 +5,59 @@ import sys
 from collections.abc import Callable
 
 import rclpy
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import Executor
 from rclpy.experimental.events_executor import EventsExecutor
+from rclpy.signals import SignalHandlerOptions
 
 from pdr_core.parameter import ParameterError
 from pdr_core.recording import RecordingError
 from pdr_nodes.managed import ManagedNode
 
+BLOCK = 200  # messages; with more, the stage is served first
+
 
 def run(make_node: Callable[[], ManagedNode]) -> None:
     """Make the node, start it and spin it. A bad parameter or recording is one sentence and exit code 2; Ctrl-C is 0.
 
-    The events executor costs half of the others. It must be spun with a time-out: without one it cannot be stopped
-    (rclpy 7.1).
+    A signal is looked at between two callbacks. rclpy's own handler would shut the graph down in the middle of one.
     """
+    signals: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, shut_down)
-    rclpy.init()
+        signal.signal(number, lambda number, _frame: signals.append(number))
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     code = 0
     try:
         node = make_node()
         node.start()
-        spin(node)
+        spin(node, lambda: not signals)
     except (ParameterError, RecordingError) as error:
         print(f"pdr: {error}", file=sys.stderr)
         code = 2
-    except (RuntimeError, ExternalShutdownException):
-        if rclpy.ok():
-            raise  # else the graph was shut down while something still wanted it
     finally:
-        rclpy.try_shutdown()
+        rclpy.shutdown()
     sys.exit(code)
 
 
-def shut_down(*_: object) -> None:
-    """Leave it to rclpy: its own handler shuts the graph down. A KeyboardInterrupt would come out of any callback."""
+def spin(node: ManagedNode, wanted: Callable[[], bool]) -> None:
+    """Serve callbacks, and the node's own work, until it is done or not wanted any more.
 
-
-def spin(node: ManagedNode) -> None:
-    """Serve callbacks, and the node's own work, until it is done or shut down."""
+    The events executor costs half of the others. It must be spun with a time-out: without one it cannot be stopped
+    (rclpy 7.1).
+    """
     executor = EventsExecutor()
     executor.add_node(node)
-    while rclpy.ok() and node.state != "finalized":
+    while wanted() and node.state != "finalized":
         wait_s = node.work()
         if wait_s is None:
             return
-        executor.spin_once(timeout_sec=wait_s)
+        serve(executor, node, wait_s)
+
+
+def serve(executor: Executor, node: ManagedNode, within_s: float) -> None:
+    """Serve the next callback. Where it brings a message, serve what waits behind it too: so all are one block."""
+    executor.spin_once(timeout_sec=within_s)
+    before = 0
+    while before < node.waiting < BLOCK:
+        before = node.waiting
+        executor.spin_once(timeout_sec=0.0)
+    node.take_waiting()

@@ -7,7 +7,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from pdr_core.records import Level, Notice
-from pdr_nodes.publishers import publishers
+from pdr_nodes import publishers
 from pdr_nodes.qos import OWN
 
 LAST_WORDS = Duration(seconds=1)  # what subscribers have to take the last messages
@@ -39,7 +39,7 @@ class SoleOutput:
     @property
     def notices(self) -> list[Notice]:
         """An error where another node publishes the topic too."""
-        others = publishers(self._node, self._topic) if self._publisher else []
+        others = publishers.names(self._node, self._topic) if self._publisher else []
         me = self._node.get_fully_qualified_name()
         if me in others:
             others.remove(me)

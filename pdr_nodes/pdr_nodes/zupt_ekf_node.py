@@ -80,10 +80,9 @@ class ZuptEkfNode(ManagedNode):
                 self._tf.send(odometry)
 
     def _publish_steps(self, steps: list[Step]) -> None:
-        for step in steps:
+        for step, handover in zip(steps, self._filter.handovers, strict=True):
             self._steps.publish(step_message(step, *self._frames))
-        if steps:
-            self._handover.publish(handover_message(self._filter.handover, *self._frames))
+            self._handover.publish(handover_message(handover, *self._frames))
 
     def _publish_health(self) -> None:
         if self._filter.health.samples:

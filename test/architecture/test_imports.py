@@ -17,7 +17,7 @@ PARTS_OF_NODES = {m.split(".")[1] for m in modules() if m.startswith("pdr_nodes.
 HELPERS = " ".join(f"pdr_nodes.{part}" for part in sorted(PARTS_OF_NODES) if not part.endswith("_node"))
 # `warmup` compiles all stages, so that a node that is started alone finds the cache that the others use
 NODE = f"{BASE} {MESSAGES} rclpy {HELPERS} pdr_core.warmup"
-READS = "pdr_nodes.convert pdr_nodes.notice_board pdr_nodes.qos"
+READS = "pdr_nodes.convert pdr_nodes.notice_board pdr_nodes.qos pdr_nodes.rate_limit"
 RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.recording pdr_core.simulation pdr_core.bench"
 
 # module or package -> what it and all below it may import beside the standard library and itself; the longest name wins
@@ -44,7 +44,7 @@ MAY_IMPORT = {
     "pdr_nodes": f"{BASE} {MESSAGES} rclpy {HELPERS}",  # the helpers: neither a stage nor a device
     "pdr_nodes.qos": "rclpy",
     # `run` turns what a user can mend into one sentence, and a recording that cannot be opened is such a thing
-    "pdr_nodes.run": f"{BASE} rclpy pdr_core.recording",
+    "pdr_nodes.run": f"{BASE} rclpy pdr_nodes.managed pdr_core.recording",
     "pdr_nodes.devices": f"{BASE} pdr_core.recording pdr_core.simulation serial",
     "pdr_nodes.imu_driver_node": f"{NODE} pdr_nodes.devices",
     "pdr_nodes.imu_ingestion_node": f"{NODE} pdr_core.intake",

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
 from pdr_core.params import SimulationParams
@@ -8,6 +9,7 @@ from pdr_core.records import length
 from pdr_core.simulation import simulated_walk
 from pdr_msgs.srv import SetGyroPower, SetSampleRate
 from pdr_nodes.imu_driver_node import LOOK_S, ImuDriverNode
+from pdr_nodes.throttle import ON_THEIR_WAY
 from support.bench import Bench
 from support.walks import stamps, straight_walk, write_csv
 
@@ -66,6 +68,57 @@ def test_it_waits_for_a_subscriber_and_then_gives_everything():
     assert stamps(driver.samples) == expected.imu.stamp_ns.tolist() == stamps(truth)
     np.testing.assert_array_equal([m.pose.position.x for m in truth], expected.truth.position_m[:, 0])
     assert {m.header.frame_id for m in driver.samples} == {"imu_link"}
+
+
+def test_it_waits_for_as_many_subscribers_as_it_is_told():
+    with Bench(ImuDriverNode, driver__subscribers=2, **SIMULATED) as bench:
+        driver = Driver(bench)
+        bench.until(lambda: bench.node._samples.get_subscription_count() == 1, "the first subscriber")
+        assert bench.node.work() == LOOK_S
+        assert "1 of 2 are there" in bench.node._notices()[0].text
+        bench.hear(Imu, "imu/data_raw")
+        driver.work_until(10)
+        assert bench.node._notices() == []
+
+
+def test_as_fast_as_possible_it_waits_for_one_who_acknowledges():
+    with Bench(ImuDriverNode, **SIMULATED | {"driver__rate_factor": 0.0}) as bench:
+        driver = Driver(bench)
+        bench.until(lambda: bench.node._samples.get_subscription_count() == 1, "the subscriber")
+        assert bench.node.work() == LOOK_S
+        assert "driver.acknowledge_topic" in bench.node._notices()[0].text
+        bench.publisher(Odometry, "odom")
+        driver.work_until(10)
+
+
+def test_as_fast_as_possible_an_estimate_acknowledges_all_samples_before_it():
+    with Bench(ImuDriverNode, **SIMULATED | {"driver__rate_factor": 0.0}) as bench:
+        driver, publisher = Driver(bench), bench.publisher(Odometry, "odom")
+        driver.work_until(ON_THEIR_WAY)
+        assert bench.node.work() == LOOK_S
+        publisher.publish(Odometry(header=driver.samples[149].header))
+        driver.work_until(ON_THEIR_WAY + 150)
+        assert bench.node.work() == LOOK_S
+    assert bench.node._player.taken == ON_THEIR_WAY + 150
+
+
+def test_a_deactivated_driver_pauses_and_goes_on_where_it_was(driver):
+    driver.work_until(100)
+    driver.node.trigger_deactivate()
+    assert driver.node.work() == LOOK_S
+    driver.node.trigger_activate()
+    driver.work_to_the_end()
+    assert len(stamps(driver.samples)) == len(set(stamps(driver.samples))) == SAMPLES
+
+
+def test_a_gyro_can_be_switched_at_a_stamp_to_come(driver):
+    driver.work_until(200)
+    later = driver.samples[150].header.stamp
+    later.sec += 1
+    answer = driver.bench.call(SetGyroPower, "set_gyro_power", powered=False, not_before=later)
+    driver.work_to_the_end()
+    assert answer.effective == later
+    assert np.argmin(measured(driver.samples)) == 350
 
 
 def test_a_recording_is_replayed_bit_by_bit(tmp_path):

@@ -2,6 +2,8 @@ import signal
 from contextlib import ExitStack
 
 import pytest
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
 
 from support.bench import Bench
 from support.processes import NODES, node_process
@@ -25,7 +27,8 @@ class Pair:
             for number in SIGNALS:
                 space = f"{when}_{number.name}_{name}"
                 log = folder / f"{space}.log"
-                self.running[name, number] = stack.enter_context(node_process(name, space, log)), space, log
+                process = node_process(name, space, log, node__autostart=when != "inactive")
+                self.running[name, number] = stack.enter_context(process), space, log
 
     def there(self, name, space):
         """The node has joined the graph."""
@@ -38,6 +41,11 @@ class Pair:
             return topic in dict(self.bench.me.get_service_names_and_types())
         return self.bench.me.count_subscribers(topic) == 1
 
+    def inactive(self, name, space):
+        """The node has been configured, and waits to be activated."""
+        configure = Transition(id=Transition.TRANSITION_CONFIGURE)
+        return self.bench.call(ChangeState, f"/{space}/{name}/change_state", transition=configure).success
+
     def end(self, moment):
         """Send each its signal at its moment; return how each ended and what it said."""
         for (name, number), (process, space, _) in self.running.items():
@@ -46,7 +54,7 @@ class Pair:
         return {key: (process.wait(30), log.read_text()) for key, (process, _, log) in self.running.items()}
 
 
-@pytest.mark.parametrize("when", ["there", "ready"])
+@pytest.mark.parametrize("when", ["there", "ready", "inactive"])
 def test_a_signal_ends_a_node_in_peace(when, tmp_path):
     with ExitStack() as stack:
         pair = Pair(stack, tmp_path, when)

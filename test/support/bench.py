@@ -9,6 +9,7 @@ from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.node import Node
 
 from pdr_nodes.qos import OWN
+from pdr_nodes.run import serve
 
 DEADLINE_S = 30.0
 NUMBERS = count()
@@ -23,6 +24,7 @@ class Bench:
         self._params = {name.replace("__", ".", 1): value for name, value in params.items()}
 
     def __enter__(self) -> "Bench":
+        self.node = None
         given = [part for name, value in self._params.items() for part in ("-p", f"{name}:={yaml_text(value)}")]
         rclpy.init(args=["--ros-args", "-r", f"__ns:=/{self.namespace}", "--log-level", "error", *given])
         try:
@@ -61,7 +63,10 @@ class Bench:
 
     def spin(self) -> None:
         """Serve what comes next."""
-        self.executor.spin_once(timeout_sec=0.05)
+        if self.node:
+            serve(self.executor, self.node, 0.05)
+        else:
+            self.executor.spin_once(timeout_sec=0.05)
 
     def until(self, condition: Callable[[], object], what: str, within_s: float = DEADLINE_S) -> None:
         """Serve callbacks until the condition holds; AssertionError says what never came."""

@@ -38,13 +38,14 @@ class ZuptFilter:
         self._answer_due_ns = round(params.heading_due_s * NANOSECONDS)
         self._answers = Answers()
         self._held: StanceBlock | None = None  # samples behind one that waits for an answer
+        self.handovers: list[Handover] = []  # one for each step that `run` or `finish` returned last
         self._resets = 0
         self.state: FilterState = fresh_state()
         self.state.P[:] = np.diag(self._usual_sd**2)
 
     def run(self, block: StanceBlock) -> tuple[NavBlock, list[StepEvent]]:
         """Return an estimate of each sample up to one that must wait for an answer, and the steps certain with them."""
-        block, self._held = joined([self._held, block]) if self._held else block, None
+        block, self._held, self.handovers = joined([self._held, block]) if self._held else block, None, []
         nav, steps, done = empty_nav(length(block)), [], 0
         while done < length(block):
             done, stance_is_over = navigate(block, done, self._stop_ns, self._settings, self.state, nav)
@@ -57,6 +58,7 @@ class ZuptFilter:
 
     def finish(self) -> list[StepEvent]:
         """Return the step that ends in the stance which the recording ends in, if it does."""
+        self.handovers = []
         return self._step_taken(int(self.state.last_ns)) if self.state.end_ns[1] != NO_STAMP else []
 
     def answer(self, observation: HeadingObservation) -> None:
@@ -92,9 +94,12 @@ class ZuptFilter:
     def _step_taken(self, known_ns: int) -> list[StepEvent]:
         due_ns = known_ns + self._answer_due_ns if self.asks else NO_STAMP
         step = step_taken(self.state, self._settings, due_ns)
-        if step and self.asks:
+        if step is None:
+            return []
+        if self.asks:
             self._answers.ask(step)
-        return [step] if step else []
+        self.handovers.append(self.handover)
+        return [step]
 
     @property
     def health(self) -> FilterHealth:

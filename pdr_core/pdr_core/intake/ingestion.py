@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from pdr_core.conventions import NO_STAMP, STANDARD_GRAVITY_MPS2
+from pdr_core.conventions import STANDARD_GRAVITY_MPS2
 from pdr_core.intake.clip_stage import ClipRepair
 from pdr_core.intake.noise import channels, sample_noise
 from pdr_core.intake.plausibility import Plausibility, plausible
-from pdr_core.intake.stamp_policy import StampPolicy
+from pdr_core.intake.stamp_policy import NOTHING, StampPolicy
 from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
-from pdr_core.records import Flags, ImuBlock, Level, Notice, Stamps, joined
+from pdr_core.records import Flags, ImuBlock, Level, Notice, Stamps, joined, length
 
 ACCEL_UNITS = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2}
 GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
@@ -28,7 +28,7 @@ class Ingestion:
         self._stamps = StampPolicy(params)
         self._clip_repair = ClipRepair(params)
         self._gyro, self._accel = channels(params)
-        self._last_ns = NO_STAMP
+        self._last = NOTHING
         self._plausibility = Plausibility()
         self._tally = Tally()
         self._R_foot_from_sensor = quaternion.matrix(
@@ -77,9 +77,9 @@ class Ingestion:
         )
 
     def _with_noise(self, si: ImuBlock, clipped: Flags) -> ImuBlock:
-        gyro_sd, accel_sd, gyro_full, accel_full = sample_noise(si, clipped, self._last_ns, self._gyro, self._accel)
-        if len(si.stamp_ns):
-            self._last_ns = int(si.stamp_ns[-1])
+        gyro_sd, accel_sd, gyro_full, accel_full = sample_noise(si, clipped, self._last, self._gyro, self._accel)
+        if length(si):
+            self._last = ImuBlock._make(column[-1:].copy() for column in si)
         self._note("gyro_saturated", "the gyro saturates: choose a larger range", gyro_full, si.stamp_ns)
         self._note("accel_saturated", "the accelerometer saturates: choose a larger range", accel_full, si.stamp_ns)
         self._note("gyro_off", "the gyro is off: the track is held until it is on again", gyro_sd < 0.0, si.stamp_ns)

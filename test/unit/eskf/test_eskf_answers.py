@@ -189,6 +189,23 @@ def test_another_filter_goes_on_from_a_handover():
     np.testing.assert_allclose(other.health.gyro_bias_sd_radps, f.health.gyro_bias_sd_radps)
 
 
+def test_each_step_hands_over_the_same_in_whatever_pieces_the_samples_come():
+    def handed(piece):
+        f, found = ZuptFilter(Params().filter, Params().place), []
+        for start in range(0, length(JUDGED), piece):
+            f.run(part(JUDGED, start, start + piece))
+            found += f.handovers
+        f.finish()
+        return found + f.handovers
+
+    whole, single = handed(10**9), handed(1)
+    assert len(whole) == len(single) == 4
+    for one, other in zip(whole, single, strict=True):
+        assert one.stamp_ns == other.stamp_ns
+        np.testing.assert_array_equal(one.pose.position_m, other.pose.position_m)
+        np.testing.assert_array_equal(one.pose.covariance, other.pose.covariance)
+
+
 def test_the_jacobian_of_a_heading_observation_is_right():
     rng = np.random.default_rng(3)
     for state in (random_state(rng) for _ in range(5)):

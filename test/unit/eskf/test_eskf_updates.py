@@ -132,16 +132,19 @@ def test_a_rest_also_corrects_the_yaw_that_the_bias_has_turned():
     assert 2 * np.arcsin(state.quat_xyzw[2]) == pytest.approx(-0.01, rel=1e-3)
 
 
-def test_a_fast_foot_that_seems_to_stand_is_a_dip_at_first_and_then_the_estimate_is_doubted():
+def test_a_dip_in_mid_swing_hardly_counts_and_a_stance_that_goes_on_makes_the_filter_doubt():
     state = certain(6, [5.0, 0.0, 0.0])
-    agreed = [stands(state, t * 5 * MS) for t in range(60)]
-    assert (state.rejected, state.doubted) == (29, 1)  # the release time is 0.15 s, the last sample doubts
-    assert not any(agreed[:30])
-    assert agreed[-1]
+    agreed = [stands(state, t * 5 * MS) for t in range(19)]
+    assert not any(agreed)
+    assert state.velocity_mps[0] > 4.9
+    assert (state.rejected, state.doubted) == (19, 0)
+    agreed = [stands(state, t * 5 * MS) for t in range(19, 60)]  # the release time is 0.1 s
+    assert state.doubted == 1
+    assert all(agreed[2:])
     assert np.linalg.norm(state.velocity_mps) < 0.1
 
 
-@pytest.mark.parametrize("speed", [0.3, 1.9, 2.1, 500.0])
+@pytest.mark.parametrize("speed", [0.3, 2.0, 500.0])
 def test_no_speed_locks_the_filter_out(speed):
     state = certain(6, [0.0, speed, 0.0])
     agreed = [stands(state, t * 5 * MS) for t in range(80)]
@@ -163,7 +166,7 @@ def test_only_time_in_stance_counts_as_a_contradiction():
     for t in range(10):
         assert not stands(state, t * 1000 * MS)
     assert state.contradicted_s == pytest.approx(0.05)
-    assert (state.rejected, state.doubted) == (10, 0)
+    assert state.doubted == 0
 
 
 @pytest.mark.parametrize("excess", [0.5, 0.99, 4.0, 5.9])
@@ -175,7 +178,7 @@ def test_beyond_hubers_limit_a_stance_counts_less(excess):
     assert state.normalised_innovation == pytest.approx(d2)
     R = SD**2 * max(1.0, excess)
     assert state.velocity_mps[0] == pytest.approx(before * R / (variance + R))
-    assert state.agreed == (excess <= 1.0)
+    assert (state.accepted, state.rejected) == (1, 0)
 
 
 @pytest.mark.parametrize("tilt", [[0.3, 0.0], [0.0, -0.3], [1.5, 2.0], [3.14, 0.0]])

@@ -85,8 +85,7 @@ def normalised_errors(seed, zero_velocity_sd=0.005, rate_hz=100.0):
     rng = np.random.default_rng(seed)
     model = SensorModel(tuple(rng.normal(0, 0.0035, 3)), tuple(rng.normal(0, 0.02, 3)), 1.75e-4, 2.9e-3)
     motion, stamps = between_samples([Phase(3.0), *steps(10), Phase(1.0)], rate_hz)
-    white = {"gyro_motion_noise": 0.0, "accel_motion_noise": 0.0}
-    params = changed(Params(), "intake", gyro_noise_density=1.75e-4, accel_noise_density=2.9e-3, **white)
+    params = changed(Params(), "intake", gyro_noise_density=1.75e-4, accel_noise_density=2.9e-3, change_noise=0.0)
     params = changed(params, "filter", gravity_source="place", contact_height_m=0.0)
     block = with_verdicts(
         Ingestion(params.intake).run(sensed(stamps, *point_samples(motion, G), rate_hz, model, seed)),
