@@ -115,8 +115,12 @@ def correct_heading(yaw_error_rad: float, sd_rad: float, state: FilterState) -> 
 
 @compiled
 def level(force_mps2: Vector, sd_mps: float, state: FilterState) -> None:
-    """Tell the filter where up is; the foot stands, with a velocity noise."""
+    """Tell the filter where up is; the foot stands, with a velocity noise.
+
+    It says nothing of the gyro bias. By the linear model it would, where the tilt is correlated with it through a yaw
+    that is lost; and the next rest, which tells the bias, would then turn the track by what it corrects.
+    """
     force = difference(force_mps2, state.accel_bias_mps2)
     R = gravity.noise(sd_mps, state.gravity_mps2)
     y = innovation(state.P, gravity.H, R, gravity.residual(state.quat_xyzw, force))
-    apply(y, gravity.H, gain(given_yaw(state.P, y)), state)
+    apply(y, gravity.H, zupt.without_gyro_bias(gain(given_yaw(state.P, y))), state)

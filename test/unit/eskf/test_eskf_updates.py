@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from pdr_core.eskf import gravity, zaru, zupt
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.error_state import GYRO_BIAS, VELOCITY
-from pdr_core.eskf.known_yaw import given_yaw
+from pdr_core.eskf.known_yaw import YAW, given_yaw
 from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.kalman import innovation
 from pdr_core.params import FilterParams, PlaceParams
@@ -197,6 +197,17 @@ def test_a_standing_foot_is_levelled_from_any_tilt(tilt):
 def rotated_by(state, vector):
     """Return a vector in the world frame."""
     return Rotation.from_quat(state.quat_xyzw).apply(vector)
+
+
+@given(SEEDS)
+def test_levelling_leaves_the_gyro_bias_alone_and_what_it_has_to_do_with_the_yaw(seed):
+    state = random_state(np.random.default_rng(seed))
+    before = copied(state)
+    level(np.array([1.0, 2.0, 9.0]), SD, state)
+    bias = slice(GYRO_BIAS, GYRO_BIAS + 3)
+    assert not np.array_equal(state.quat_xyzw, before.quat_xyzw)
+    np.testing.assert_array_equal(state.gyro_bias_radps, before.gyro_bias_radps)
+    np.testing.assert_allclose(state.P[YAW, bias], before.P[YAW, bias], rtol=1e-9, atol=1e-12)
 
 
 def test_the_jacobians_pick_velocity_and_gyro_bias():
