@@ -39,7 +39,10 @@ class Drawn:
     def text(self) -> str:
         """Everything in one line."""
         strides = ", ".join(f"{n} {name} at {pace:.2f}" for name, pace, n in self.stretches)
-        gyro_dps, accel_g = np.degrees(self.sensor.gyro_range_radps), self.sensor.accel_range_mps2 / STANDARD_GRAVITY_MPS2
+        gyro_dps, accel_g = (
+            np.degrees(self.sensor.gyro_range_radps),
+            self.sensor.accel_range_mps2 / STANDARD_GRAVITY_MPS2,
+        )
         sensor = f"{self.rate_hz:.0f} Hz, {gyro_dps:.0f} deg/s, {accel_g:.0f} g, shocks {self.shock_mps2:.0f} m/s^2"
         trouble = f"{self.trouble.name} {self.amount:.2g} {self.trouble.unit} at {self.at:.0%}"
         return f"{sensor}; {trouble if self.trouble != NO_TROUBLE else 'no trouble'}; {strides}"

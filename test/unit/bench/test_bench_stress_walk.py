@@ -91,6 +91,6 @@ def test_jitter_moves_stamps_and_losses_take_samples():
 
 
 def test_where_the_walk_is_over_before_the_foot_is_back_only_the_first_part_is_scored():
-    hit = ordeal(replace(troubled("gap", 5.0), at=0.97))
+    hit = ordeal(replace(troubled("kicked", 0.5), at=0.999))
     assert len(hit.parts) == 1
     assert hit.parts[0][1] < len(hit.imu.stamp_ns)
