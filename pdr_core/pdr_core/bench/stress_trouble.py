@@ -46,7 +46,7 @@ def ordeal(d: Drawn) -> Ordeal:
     ends = [0, begin, *back_again(walk, stop), len(path_m)] if d.trouble.hides_motion else [0, len(path_m)]
     rows = [int(row) for row in np.searchsorted(kept, ends)]
     parts = list(zip(rows[::2], rows[1::2], strict=False))
-    return Ordeal(ImuBlock(*(column[kept] for column in imu)), walk.motion.position_m[kept], parts)
+    return Ordeal(ImuBlock._make(column[kept] for column in imu), walk.motion.position_m[kept], parts)
 
 
 def back_again(walk: SimulatedWalk, stop: int) -> list[int]:
@@ -89,7 +89,7 @@ def kicked(site: Site) -> tuple[ImuBlock, Rows]:
 def fallen(site: Site) -> tuple[ImuBlock, Rows]:
     """Tumble, at random but smoothly."""
     sensor, now = site.drawn.sensor, slice(site.begin, site.stop)
-    knot_s = np.arange(0.0, site.drawn.amount + 2 * KNOT_S, KNOT_S)
+    knot_s = KNOT_S * np.arange(np.ceil(site.drawn.amount / KNOT_S) + 1.0)
     time_s = np.arange(site.stop - site.begin) / site.drawn.rate_hz
     felt = Curve(knot_s, site.rng.standard_normal((len(knot_s), 6))).at(time_s)[0]
     gyro, accel = RANGES.fall_radps * felt[:, :3], RANGES.fall_mps2 * felt[:, 3:]
