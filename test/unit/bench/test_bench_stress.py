@@ -1,4 +1,4 @@
-"""Thirty walks of the stress test; `pdr test --full` runs five hundred."""
+"""Thirty walks of the stress test, and those that failed once; `pdr test --full` runs five hundred."""
 
 from dataclasses import replace
 
@@ -29,6 +29,12 @@ def test_it_says_that_the_track_was_off():
     assert {r.drawn.trouble.name for r in hidden} == {"gap", "clipped", "kicked", "fall"}
     assert len(silent) <= 0.2 * len(hidden)
     assert set(silent) <= {"clipped", "kicked"}
+
+
+@pytest.mark.parametrize("seed", [54, 404, 439, 611])
+def test_walks_that_failed_once_do_so_no_more(seed):
+    """Locked out by the short stances of a sprint; and turned by a rest, because levelling had moved the gyro bias."""
+    assert result(drawn(seed)).worst_percent < 1.5
 
 
 NO_STANCE = {"threshold_min": 1e-3, "threshold_max": 1e-3, "quiet_max": 0.0}
