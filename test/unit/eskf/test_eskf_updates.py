@@ -164,9 +164,27 @@ def test_agreement_ends_a_contradiction():
 def test_only_time_in_stance_counts_as_a_contradiction():
     state = certain(7, [5.0, 0.0, 0.0])
     for t in range(10):
-        assert not stands(state, t * 1000 * MS)
+        assert not stands(state, t * 200 * MS)
     assert state.contradicted_s == pytest.approx(0.05)
     assert state.doubted == 0
+
+
+def test_two_stances_in_a_row_that_contradict_make_the_filter_doubt():
+    state = certain(7, [5.0, 0.0, 0.0])
+    assert not stands(state, 0)
+    assert state.doubted == 0
+    stands(state, 600 * MS)
+    assert state.doubted == 1
+    assert np.linalg.norm(state.velocity_mps) < 0.1
+
+
+def test_a_stance_that_counts_for_little_does_not_end_a_contradiction():
+    """Where a stance begins and ends, its noise is large: the velocity may be far off and pass the gate."""
+    state = certain(7, [5.0, 0.0, 0.0])
+    assert not stands(state, 0)
+    assert stands(state, 5 * MS, sd=1.5)
+    assert state.normalised_innovation > SETTINGS.huber
+    assert state.contradicted_s > 0.0
 
 
 @pytest.mark.parametrize("excess", [0.5, 0.99, 4.0, 5.9])
