@@ -36,6 +36,7 @@ ALIGNMENT = [                                 # the first moments, in which grav
 GATE = [
     ("last_accepted_ns", np.int64),           # of the zero-velocity updates
     ("contradicted_s", np.float64),           # time in stances that contradict the estimate, since one agreed
+    ("contradicted_ns", np.int64),            # the last sample of them
 ]
 # The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of

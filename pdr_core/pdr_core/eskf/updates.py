@@ -51,9 +51,8 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
 
     A verdict may be wrong, and so may the estimate. An innovation beyond `huber` counts less the larger it is (Huber's
     weight): R grows by sd^2 (d2 / huber - 1). Beyond the gate it contradicts the estimate, but is never rejected: a dip
-    in mid-swing hardly counts, and where the contradiction goes on for longer than the release time, it is the
-    estimate that is wrong, and its covariance is raised until it agrees with the stance. So nothing locks the filter
-    out.
+    in mid-swing hardly counts, and where the contradiction goes on, it is the estimate that is wrong, and its
+    covariance is raised until it agrees with the stance. So nothing locks the filter out.
     """
     rolling = zupt.rolling_velocity(state.quat_xyzw, difference(rate_radps, state.gyro_bias_radps), s.contact_height_m)
     residual = zupt.residual(rolling, state.velocity_mps)
@@ -61,9 +60,7 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
     d2 = normalised_squared(given)
     state.normalised_innovation = d2
     agrees = d2 <= s.gate
-    contradicted_s = 0.0 if agrees else float(state.contradicted_s) + min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
-    state.contradicted_s = contradicted_s
-    if contradicted_s > s.release_s:
+    if proven_wrong(stamp_ns, d2, s, state):
         doubt(stamp_ns, norm(residual), state)
         y, given = weighed(residual, sd_mps, state)
         d2 = normalised_squared(given)
@@ -83,6 +80,23 @@ def weighed(residual: Floats, sd_mps: float, state: FilterState) -> tuple[Innova
     """Return the innovation of a velocity residual (3,), and what it would be if the yaw were known."""
     y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
     return y, given_yaw(state.P, y)
+
+
+@compiled
+def proven_wrong(stamp_ns: int, d2: float, s: Settings, state: FilterState) -> bool:
+    """Return whether stances have contradicted the estimate for longer than the release time, or two in a row did.
+
+    In a sprint a stance is shorter than the release time. Only one with its full weight ends the contradiction: where a
+    stance begins and ends, its noise is so large that any estimate would pass the gate.
+    """
+    if d2 <= s.huber:
+        state.contradicted_s = 0.0
+    if d2 <= s.gate:
+        return False
+    second = state.contradicted_s > 0.0 and stamp_ns - state.contradicted_ns > s.merge_ns
+    state.contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
+    state.contradicted_ns = stamp_ns
+    return second or state.contradicted_s > s.release_s
 
 
 @compiled
@@ -115,8 +129,12 @@ def correct_heading(yaw_error_rad: float, sd_rad: float, state: FilterState) -> 
 
 @compiled
 def level(force_mps2: Vector, sd_mps: float, state: FilterState) -> None:
-    """Tell the filter where up is; the foot stands, with a velocity noise."""
+    """Tell the filter where up is; the foot stands, with a velocity noise.
+
+    It says nothing of the gyro bias. By the linear model it would, where the tilt is correlated with it through a yaw
+    that is lost; and the next rest, which tells the bias, would then turn the track by what it corrects.
+    """
     force = difference(force_mps2, state.accel_bias_mps2)
     R = gravity.noise(sd_mps, state.gravity_mps2)
     y = innovation(state.P, gravity.H, R, gravity.residual(state.quat_xyzw, force))
-    apply(y, gravity.H, gain(given_yaw(state.P, y)), state)
+    apply(y, gravity.H, zupt.without_gyro_bias(gain(given_yaw(state.P, y))), state)

@@ -32,7 +32,17 @@ def simulated_walk(
 
     `model` is a sensor in place of the one that they name. ParameterError if motion and walk do not go together.
     """
-    path = course(params)
+    return walked(course(params), params, place, start_ns, model)
+
+
+def walked(
+    path: Course,
+    params: SimulationParams,
+    place: PlaceParams | None = None,
+    start_ns: int = 0,
+    model: SensorModel | None = None,
+) -> SimulatedWalk:
+    """Simulate the walk along any course, with the sensor that the parameters name, or with `model`."""
     rate_hz = params.sample_rate_hz
     stamp_ns = stamp_ns_from_seconds(np.arange(round(path.duration_s * rate_hz)) / rate_hz) + start_ns
     time_s = seconds_between(stamp_ns, start_ns)

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from pdr_core.eskf import gravity, zaru, zupt
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.error_state import GYRO_BIAS, VELOCITY
-from pdr_core.eskf.known_yaw import given_yaw
+from pdr_core.eskf.known_yaw import YAW, given_yaw
 from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.kalman import innovation
 from pdr_core.params import FilterParams, PlaceParams
@@ -164,9 +164,27 @@ def test_agreement_ends_a_contradiction():
 def test_only_time_in_stance_counts_as_a_contradiction():
     state = certain(7, [5.0, 0.0, 0.0])
     for t in range(10):
-        assert not stands(state, t * 1000 * MS)
+        assert not stands(state, t * 200 * MS)
     assert state.contradicted_s == pytest.approx(0.05)
     assert state.doubted == 0
+
+
+def test_two_stances_in_a_row_that_contradict_make_the_filter_doubt():
+    state = certain(7, [5.0, 0.0, 0.0])
+    assert not stands(state, 0)
+    assert state.doubted == 0
+    stands(state, 600 * MS)
+    assert state.doubted == 1
+    assert np.linalg.norm(state.velocity_mps) < 0.1
+
+
+def test_a_stance_that_counts_for_little_does_not_end_a_contradiction():
+    """Where a stance begins and ends, its noise is large: the velocity may be far off and pass the gate."""
+    state = certain(7, [5.0, 0.0, 0.0])
+    assert not stands(state, 0)
+    assert stands(state, 5 * MS, sd=1.5)
+    assert state.normalised_innovation > SETTINGS.huber
+    assert state.contradicted_s > 0.0
 
 
 @pytest.mark.parametrize("excess", [0.5, 0.99, 4.0, 5.9])
@@ -197,6 +215,17 @@ def test_a_standing_foot_is_levelled_from_any_tilt(tilt):
 def rotated_by(state, vector):
     """Return a vector in the world frame."""
     return Rotation.from_quat(state.quat_xyzw).apply(vector)
+
+
+@given(SEEDS)
+def test_levelling_leaves_the_gyro_bias_alone_and_what_it_has_to_do_with_the_yaw(seed):
+    state = random_state(np.random.default_rng(seed))
+    before = copied(state)
+    level(np.array([1.0, 2.0, 9.0]), SD, state)
+    bias = slice(GYRO_BIAS, GYRO_BIAS + 3)
+    assert not np.array_equal(state.quat_xyzw, before.quat_xyzw)
+    np.testing.assert_array_equal(state.gyro_bias_radps, before.gyro_bias_radps)
+    np.testing.assert_allclose(state.P[YAW, bias], before.P[YAW, bias], rtol=1e-9, atol=1e-12)
 
 
 def test_the_jacobians_pick_velocity_and_gyro_bias():
