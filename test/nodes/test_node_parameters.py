@@ -18,7 +18,7 @@ GROUPS_OF = {
     ZuptEkfNode: ("filter", "place", "node"),
 }
 REFUSED = {
-    "an unknown name": ({"filter__gates": 1.0}, "filter.gates: unknown parameter; known are alignment_s, .*gate"),
+    "an unknown name": ({"filter__gates": 1.0}, "filter.gates: unknown parameter; known are samples, .*gate"),
     "an unknown group": ({"filtre__gate": 1.0}, "filtre: unknown group of parameters; known are .*filter"),
     "no group": ({"gate": 1.0}, "gate: unknown parameter; parameters are group.name"),
     "out of bounds": ({"filter__gate": 0.5}, r"filter.gate = 0.5: must be float, within 1 .. 1e\+09"),

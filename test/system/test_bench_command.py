@@ -4,16 +4,16 @@ from support.processes import pdr
 
 
 def test_the_bench_prints_tables():
-    run = pdr("bench", "--seeds", 2, "--length", 2.4)
+    run = pdr("bench", "--seeds", 2, "--length", 4.8)
     assert run.returncode == 0, run.stderr
-    for text in ("Mechanisation alone", "Gui Table 1", "Consistency, true verdicts: 2 walks of 2.4 m", "too careful"):
+    for text in ("Mechanisation alone", "Gui Table 1", "Consistency, true verdicts: 2 walks of 4.8 m", "too careful"):
         assert text in run.stdout
     assert "\x1b" not in run.stdout
     assert max(map(len, run.stdout.splitlines())) <= 120
 
 
 def test_the_bench_prints_json():
-    found = json.loads(pdr("bench", "--seeds", 2, "--length", 2.4, "--json").stdout)
+    found = json.loads(pdr("bench", "--seeds", 2, "--length", 4.8, "--json").stdout)
     assert {row["rate_hz"] for row in found["mechanisation"]} >= {50.0, 1000.0}
     assert {row["sensor_model"] for row in found["table_1"]} >= {"gui_table_1", "gui_table_1_deg"}
     assert [row["runs"] for row in found["consistency"]] == [2, 2, 2]

@@ -11,13 +11,12 @@ from scipy.spatial.transform import Rotation
 
 from pdr_core.conventions import NANOSECONDS, gravity_mps2
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import mean
 from pdr_core.params import PlaceParams, SimulationParams
 from pdr_core.records import Floats, ImuBlock
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.simulation.gait import WALK, Stride
 from pdr_core.simulation.gui_motion import STANCE_S, STEP_LENGTH_M, SWING_S
-from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 RATES_HZ = (50.0, 100.0, 200.0, 400.0, 1000.0)
 WALKED_S = 60.0  # beside the rests
@@ -74,7 +73,7 @@ def integrate(imu: ImuBlock, gravity: float, position_m: Floats, velocity_mps: F
     """Replace all rows but the first, which is the start, by what the mechanisation makes of the samples."""
     for i in range(1, imu.stamp_ns.shape[0]):
         position_m[i], velocity_mps[i], quat_xyzw[i] = position_m[i - 1], velocity_mps[i - 1], quat_xyzw[i - 1]
-        rate_radps = mean(imu.gyro_radps[i - 1], imu.gyro_radps[i])
         dt_s = (imu.stamp_ns[i] - imu.stamp_ns[i - 1]) / NANOSECONDS
+        rate_radps = mean_rate(imu.gyro_radps[i - 1], imu.gyro_radps[i], dt_s)
         before, after = imu.accel_mps2[i - 1], imu.accel_mps2[i]
         advance(position_m[i], velocity_mps[i], quat_xyzw[i], rate_radps, before, after, dt_s, gravity)

@@ -93,10 +93,10 @@ def proven_wrong(stamp_ns: int, d2: float, s: Settings, state: FilterState) -> b
         state.contradicted_s = 0.0
     if d2 <= s.gate:
         return False
-    second = state.contradicted_s > 0.0 and stamp_ns - state.contradicted_ns > s.merge_ns
+    second = float(state.contradicted_s) > 0.0 and stamp_ns - state.contradicted_ns > s.merge_ns
     state.contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
     state.contradicted_ns = stamp_ns
-    return second or state.contradicted_s > s.release_s
+    return second or float(state.contradicted_s) > s.release_s
 
 
 @compiled
