@@ -13,7 +13,7 @@ from pdr_core.simulation import simulated_walk
 RATE_HZ = 200
 WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=24.0, sample_rate_hz=float(RATE_HZ)))
 STANCE_ENDS = np.flatnonzero(WALK.motion.stance[:-1] & ~WALK.motion.stance[1:])
-IN_SWING, IN_STANCE = 10 * RATE_HZ - 100, 10 * RATE_HZ + 150  # 9.5 s: .5 s into a swing; 10.75 s: .25 s into a stance
+IN_SWING, IN_STANCE = 10 * RATE_HZ - 100, 10 * RATE_HZ + 50  # .5 s into a swing of 1 s, .25 s into the stance after it
 
 
 def shocked(imu, at, rng):
@@ -35,11 +35,17 @@ def interrupted(imu, at, _):
     return ImuBlock(*(column[kept] for column in imu)), at + 5 * RATE_HZ
 
 
-def kicked(imu, at, rng):
+def kicked(imu, at, rng, turn_rad=1.2):
     axis = rng.standard_normal(3)
-    turn = Rotation.from_rotvec(1.2 * axis / np.linalg.norm(axis))
+    turn = Rotation.from_rotvec(turn_rad * axis / np.linalg.norm(axis))
     imu.gyro_radps[at:], imu.accel_mps2[at:] = turn.apply(imu.gyro_radps[at:]), turn.apply(imu.accel_mps2[at:])
     return imu, at
+
+
+def refitted(imu, at, rng):
+    """Take the sensor off for 5 s and fix it upside down."""
+    turned, _ = kicked(imu, at, rng, turn_rad=3.0)
+    return interrupted(turned, at, rng)
 
 
 def fallen(imu, at, rng):
@@ -51,7 +57,7 @@ def fallen(imu, at, rng):
 
 @pytest.mark.parametrize("at", [IN_SWING, IN_STANCE])
 @pytest.mark.parametrize("seed", [0, 1])
-@pytest.mark.parametrize("stress", [shocked, clipped, interrupted, kicked, fallen])
+@pytest.mark.parametrize("stress", [shocked, clipped, interrupted, kicked, refitted, fallen])
 def test_two_strides_after_a_bad_stretch_the_track_is_right_again(stress, seed, at):
     imu, over = stress(ImuBlock(*(c.copy() for c in WALK.imu)), at, np.random.default_rng(seed))
     chain = FootInertial(Params())
@@ -74,6 +80,15 @@ def test_it_says_that_the_track_was_off(stress):
     chain = FootInertial(Params())
     chain.run(imu)
     assert {n.kind for n in chain.notices} & {"estimate_doubted", "coasted"}
+
+
+def test_after_a_gap_the_position_is_held_until_the_foot_stands():
+    at = 9 * RATE_HZ + 20  # 5 s later the foot is .4 s before the end of another swing
+    imu, over = interrupted(WALK.imu, at, None)
+    assert not WALK.motion.stance[over : over + 60].any()
+    nav = FootInertial(Params()).run(imu).nav
+    held_m = nav.position_m[at - 1 : at + 60]
+    np.testing.assert_array_equal(held_m, np.tile(held_m[0], (61, 1)))
 
 
 def test_the_track_turns_with_the_mounting_and_nothing_else_changes():
