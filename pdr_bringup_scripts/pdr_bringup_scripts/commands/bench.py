@@ -4,14 +4,37 @@ import typer
 
 
 def bench(
-    seeds: int = typer.Option(100, min=1, help="walks of each consistency campaign"),
+    stress: bool = typer.Option(False, "--stress", help="instead: seeded walks of every gait with every trouble"),
+    seeds: int = typer.Option(None, min=1, help="walks; default: 100 of each consistency campaign, 500 of --stress"),
     length: float = typer.Option(100.0, min=1.2, help="length of these walks [m]"),
     json: bool = typer.Option(False, "--json", help="print everything as one JSON object"),
 ) -> None:
     """Measure mechanisation, Gui's Table 1 and the filter's consistency on simulated walks.
 
-    Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`
+    Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`, or `pdr bench --stress`
     """
+    if stress:
+        run_stress(seeds or 500, json)
+    else:
+        run_figures(seeds or 100, length, json)
+
+
+def run_stress(seeds: int, json: bool) -> None:
+    """Walk through every trouble and print what came of it."""
+    from pdr_bringup_scripts.stress_tables import show_stress, stress_as_json
+    from pdr_bringup_scripts.terminal import Terminal
+    from pdr_core.bench.stress import stress
+
+    with Terminal().progress(f"Stress, walks of {seeds}") as tell:
+        results = stress(range(seeds), tell)
+    if json:
+        print(stress_as_json(results))
+    else:
+        show_stress(results)
+
+
+def run_figures(seeds: int, length: float, json: bool) -> None:
+    """Measure and print mechanisation, Table 1 and consistency."""
     from pdr_bringup_scripts.bench_tables import as_json, show
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.bench.consistency import CAMPAIGNS, consistency

@@ -89,12 +89,12 @@ def proven_wrong(stamp_ns: int, d2: float, s: Settings, state: FilterState) -> b
     In a sprint a stance is shorter than the release time. Only one with its full weight ends the contradiction: where a
     stance begins and ends, its noise is so large that any estimate would pass the gate.
     """
-    before_s = 0.0 if d2 <= s.huber else state.contradicted_s
+    contradicted_s, contradicted_ns = float(state.contradicted_s), int(state.contradicted_ns)
     if d2 <= s.gate:
-        state.contradicted_s = before_s
+        state.contradicted_s = 0.0 if d2 <= s.huber else contradicted_s
         return False
-    second = before_s > 0.0 and stamp_ns - state.contradicted_ns > s.merge_ns
-    contradicted_s = before_s + min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
+    second = contradicted_s > 0.0 and stamp_ns - contradicted_ns > s.merge_ns
+    contradicted_s += min(stamp_ns - state.last_ns, GAP_NS) * 1e-9
     state.contradicted_s, state.contradicted_ns = contradicted_s, stamp_ns
     return second or contradicted_s > s.release_s
 

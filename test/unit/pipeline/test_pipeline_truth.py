@@ -26,7 +26,7 @@ def with_verdicts(imu, stance):
 
 
 @pytest.mark.parametrize("walk", ["straight", "rectangle"])
-@pytest.mark.parametrize(("motion", "rate_hz"), [("gui", 100.0), ("gui", 400.0), ("smooth", 400.0)])
+@pytest.mark.parametrize(("motion", "rate_hz"), [("gui", 100.0), ("gui", 400.0), ("smooth", 100.0), ("smooth", 200.0)])
 def test_a_walk_of_100_m_without_noise_and_with_true_verdicts_returns_the_truth(walk, motion, rate_hz):
     simulation = SimulationParams(
         motion=motion, walk=walk, walk_length_m=100.0, sample_rate_hz=rate_hz, sensor_model="ideal"
@@ -38,8 +38,10 @@ def test_a_walk_of_100_m_without_noise_and_with_true_verdicts_returns_the_truth(
     assert error[-1] < 0.0005 * path_length_m(sim.motion.position_m)  # 0.05 %
     assert np.sqrt(np.mean(error**2)) < 0.0005 * path_length_m(sim.motion.position_m)
     turn = (Rotation.from_quat(nav.quat_xyzw).inv() * Rotation.from_quat(sim.motion.quat_xyzw)).magnitude()
-    # The trapezium of a turn on the spot in .5 s, at 100 Hz, errs by 5e-4, and no stance tells the yaw: four turns.
-    assert turn.max() < 0.002
+    # Gui's turn on the spot begins and ends with a jump of pi^3 rad/s^2 in the rate's derivative, so the trapezium misses
+    # 2 pi^3 / 12 of the squared interval, four times round a rectangle; and no stance tells the yaw.
+    missed_rad = 4.0 * np.pi**3 / 6.0 / rate_hz**2 if (motion, walk) == ("gui", "rectangle") else 0.0
+    assert turn.max() < missed_rad + 2e-4
 
 
 def between_samples(phases, rate_hz):
