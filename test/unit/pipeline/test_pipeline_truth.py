@@ -38,8 +38,8 @@ def test_a_walk_of_100_m_without_noise_and_with_true_verdicts_returns_the_truth(
     assert error[-1] < 0.0005 * path_length_m(sim.motion.position_m)  # 0.05 %
     assert np.sqrt(np.mean(error**2)) < 0.0005 * path_length_m(sim.motion.position_m)
     turn = (Rotation.from_quat(nav.quat_xyzw).inv() * Rotation.from_quat(sim.motion.quat_xyzw)).magnitude()
-    # Gui's turn on the spot begins and ends with a jump of pi^3 rad/s^2 in the rate's derivative, so the trapezium misses
-    # 2 pi^3 / 12 of the squared interval, four times round a rectangle; and no stance tells the yaw.
+    # Gui's turn on the spot begins and ends with a jump of pi^3 rad/s^2 in the yaw's acceleration, so the trapezium
+    # misses 2 pi^3 / 12 of the squared interval, four times round a rectangle; and no stance tells the yaw.
     missed_rad = 4.0 * np.pi**3 / 6.0 / rate_hz**2 if (motion, walk) == ("gui", "rectangle") else 0.0
     assert turn.max() < missed_rad + 2e-4
 
