@@ -27,9 +27,14 @@ def as_json(errors: list[MechanisationError], table_1: list[Table1Result], found
 
 def show(errors: list[MechanisationError], table_1: list[Table1Result], found: list[Consistency]) -> None:
     """Print the tables: with colours on a terminal, as plain text elsewhere."""
-    console = Console(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
+    out = console()
     for one in (mechanisation_table(errors), table_1_table(table_1), *map(consistency_table, found)):
-        console.print(one)
+        out.print(one)
+
+
+def console() -> Console:
+    """Return where tables are printed."""
+    return Console(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
 
 
 def table(title: str, *heads: str) -> Table:
