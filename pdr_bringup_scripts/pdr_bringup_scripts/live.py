@@ -52,10 +52,13 @@ def live_run(
 
 
 def for_one_run(params: Params) -> Params:
-    """Return the parameters of a run whose nodes are all ours. Played slowly, a stream is idle after a longer time."""
+    """Return the parameters of a run whose nodes are all ours, in which answers are waited for however long they take.
+
+    Played slowly, a stream is idle after a longer time.
+    """
     slowness = max(1.0, 1.0 / params.driver.rate_factor) if params.driver.rate_factor else 1.0
     idle_s = min(params.node.idle_s * slowness, IDLE_MAX_S)
-    node = replace(params.node, input_reliable=True, autostart=True, idle_s=idle_s)
+    node = replace(params.node, input_reliable=True, autostart=True, idle_s=idle_s, answer_timeout_s=0.0)
     return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
 
 

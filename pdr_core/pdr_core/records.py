@@ -152,7 +152,7 @@ class FilterHealth:
     quality: float  # 0 (lost) .. 1
     samples: int
     accepted: int  # zero-velocity updates
-    rejected: int
+    contradicted: int
     gaps: int
     resets: int
     since_zero_velocity_s: float

@@ -209,7 +209,7 @@ def health_message(
     message.nav_quality = health.quality
     message.samples = health.samples
     message.zero_velocity_updates = health.accepted
-    message.zero_velocity_rejections = health.rejected
+    message.zero_velocity_contradictions = health.contradicted
     message.gaps = health.gaps
     message.resets = health.resets
     message.since_zero_velocity = health.since_zero_velocity_s

@@ -72,7 +72,7 @@ class ImuDriverNode(ManagedNode):
 
     def _notices(self) -> list[Notice]:
         if self._begun:
-            return []
+            return list(self._pace.notices)
         there, topic = self._samples.get_subscription_count(), self._samples.topic_name
         text = f"waits for subscribers of {topic}: {there} of {self._listeners} are there (driver.subscribers)"
         if not self._pace.ready:

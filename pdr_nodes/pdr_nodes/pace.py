@@ -9,6 +9,7 @@ class Pace:
     """Turns stamps into the time until a sample is due: `factor` times as fast as it was."""
 
     ready = True  # needs nobody but the subscribers
+    notices: tuple[()] = ()
 
     def __init__(self, factor: float) -> None:
         self._factor = factor

@@ -9,10 +9,11 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from pdr_core.conventions import NANOSECONDS
+from pdr_core.records import Level, Notice
 from pdr_nodes.qos import OWN
 
 ON_THEIR_WAY = 1000  # a tenth of what the queue of a topic holds, so that none can overflow
-STALLED_S = 5.0  # where none of them comes back for so long, they were left out on the way: go on
+STALLED_S = 5.0  # where none of them comes back for so long, they were left out on the way: send as many again
 LOOK_S = 0.05
 
 
@@ -22,8 +23,9 @@ class Throttle:
     def __init__(self, node: Node, topic: str) -> None:
         self._node, self._topic = node, topic
         self._stamps_ns: deque[int] = deque()
-        self._moved_s = time.monotonic()
+        self._moved_s = 0.0  # when the last acknowledgement came, or the first sample after all were acknowledged left
         self._subscription: Subscription | None = None
+        self._stalls = 0
 
     def begin(self) -> None:
         """Listen to the end of the chain."""
@@ -40,14 +42,25 @@ class Throttle:
         """Somebody is there to acknowledge."""
         return self._subscription is not None and self._subscription.get_publisher_count() > 0
 
+    @property
+    def notices(self) -> list[Notice]:
+        """Whether the chain takes what is sent."""
+        if not self._stalls:
+            return []
+        text = f"nothing on {self._topic} for {STALLED_S:.0f} s, {ON_THEIR_WAY} more samples were sent: does the chain run?"
+        return [Notice(Level.WARN, "not_acknowledged", text, self._stalls, 0)]
+
     def wait_s(self, _stamp_ns: int) -> float:
         """Return 0 if one more sample may be sent, else the time [s] until it is worth asking again."""
         if len(self._stamps_ns) >= ON_THEIR_WAY and time.monotonic() - self._moved_s > STALLED_S:
             self._stamps_ns.clear()
+            self._stalls += 1
         return 0.0 if len(self._stamps_ns) < ON_THEIR_WAY else LOOK_S
 
     def sent(self, stamp_ns: int) -> None:
         """Note that a sample is on its way."""
+        if not self._stamps_ns:
+            self._moved_s = time.monotonic()
         self._stamps_ns.append(stamp_ns)
 
     def _acknowledge(self, cdr: bytes) -> None:

@@ -27,8 +27,8 @@ full = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figure
 @pytest.mark.parametrize("rate_hz", [200.0, 400.0, 1000.0])
 def test_no_sample_is_lost_on_the_way_to_the_filter(rate_hz: float, tmp_path: Path) -> None:
     params = changed(Params(), "node", input_reliable=True)
-    params = changed(params, "driver", walk="straight", walk_length_m=LENGTH_M, sample_rate_hz=rate_hz)
-    raw = simulated_walk(params.driver, params.place).imu
+    params = changed(params, "simulation", walk="straight", walk_length_m=LENGTH_M, sample_rate_hz=rate_hz)
+    raw = simulated_walk(params.simulation, params.place).imu
     seconds = float(raw.stamp_ns[-1] - raw.stamp_ns[0]) / 1e9
     waited_for = newest_stamps(raw, params)
     run = LiveRun(params, length(raw), seconds, tmp_path)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pdr_core.records import Level, Notice
+from pdr_nodes import throttle
 from pdr_nodes.notice_board import notices_from, status
 from pdr_nodes.rate_limit import RateLimit
 from pdr_nodes.repeats import Repeats
@@ -74,3 +75,20 @@ def test_notices_are_read_back_exactly():
 def test_without_notices_all_is_well():
     said = status("imu_ingestion: samples", [], "as it should be")
     assert (said.level, said.message, said.values) == (b"\x00", "as it should be", [])
+
+
+def test_without_acknowledgement_only_so_many_samples_leave_in_a_while(monkeypatch):
+    now_s = [100.0]
+    monkeypatch.setattr(throttle.time, "monotonic", lambda: now_s[0])
+    gate, left = throttle.Throttle(None, "odom"), []
+    now_s[0] += 60.0  # the subscribers took their time
+    for stamp_ns in range(10 * throttle.ON_THEIR_WAY):
+        if gate.wait_s(stamp_ns) == 0.0:
+            gate.sent(stamp_ns)
+            left.append(now_s[0])
+        else:
+            now_s[0] += 0.01
+    windows = np.histogram(left, bins=np.arange(160.0, now_s[0] + throttle.STALLED_S, throttle.STALLED_S))[0]
+    assert len(left) > throttle.ON_THEIR_WAY
+    assert windows.max() <= throttle.ON_THEIR_WAY
+    assert [notice.kind for notice in gate.notices] == ["not_acknowledged"]

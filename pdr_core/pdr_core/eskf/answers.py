@@ -11,7 +11,7 @@ from pdr_core.notices import Tally
 from pdr_core.records import HeadingObservation, HeadingSource, Level, Notice, StepEvent
 
 NOTHING_DUE_NS = 2**63 - 1
-UNASKED = "heading observations answer no step that waits: left out; is there more than one source?"
+UNASKED = "heading observations answer no step that waits, left out: they come too late, or twice"
 UNUSABLE = "heading observations hold NaN or apply before the answer was due: taken as empty"
 UNANSWERED = "steps got no heading observation in time: the track goes on without; is heading_fusion running?"
 
@@ -62,11 +62,12 @@ class Answers:
         self._given = [given for given in self._given if given.applies_from_ns > stamp_ns]
         yield from now
 
-    def give_up(self) -> None:
-        """Go on without the answers that are missing."""
-        for step in self._asked.values():
+    def give_up(self, stamp_ns: int) -> None:
+        """Go on without the answers for which the sample of this stamp waits."""
+        late = {key: step for key, step in self._asked.items() if step.answer_due_ns <= stamp_ns}
+        for key, step in late.items():
             self._tally.add("heading_unanswered", Level.WARN, UNANSWERED, step.stamp_ns)
-        self._asked.clear()
+            del self._asked[key]
 
 
 def usable(answer: HeadingObservation, step: StepEvent) -> bool:

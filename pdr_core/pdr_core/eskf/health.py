@@ -40,7 +40,7 @@ def judged(state: FilterState, resets: int) -> FilterHealth:
         quality=quality(state, since_s),
         samples=int(state.samples),
         accepted=int(state.accepted),
-        rejected=int(state.rejected),
+        contradicted=int(state.contradicted),
         gaps=int(state.gaps),
         resets=resets,
         since_zero_velocity_s=since_s,
@@ -67,5 +67,5 @@ def mode(state: FilterState) -> FilterMode:
 
 def quality(state: FilterState, since_zero_velocity_s: float) -> float:
     """Return the share of stances that agreed with the estimate, fading to 0 while no stance is found."""
-    share = state.accepted / max(1, state.accepted + state.rejected)
+    share = state.accepted / max(1, state.accepted + state.contradicted)
     return float(share * max(0.0, 1.0 - since_zero_velocity_s / LOST_AFTER_S))

@@ -57,7 +57,7 @@ STEPS = [
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),
     ("accepted", np.int64),                   # zero-velocity updates that agree with the estimate
-    ("rejected", np.int64),                   # those that contradict the estimate: they count for little
+    ("contradicted", np.int64),                   # those that contradict the estimate: they count for little
     ("doubted", np.int64),                    # how often stances that went on contradicting made it doubt the estimate
     ("gaps", np.int64),
     ("longest_swing_s", np.float64),          # longest time without a zero-velocity update

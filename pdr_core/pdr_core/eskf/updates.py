@@ -71,7 +71,7 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
         state.accepted += 1
         state.last_accepted_ns = stamp_ns
     else:
-        state.rejected += 1
+        state.contradicted += 1
     return agrees
 
 

@@ -66,12 +66,14 @@ class ZuptFilter:
         self._answers.take(observation)
 
     def give_up_answers(self) -> None:
-        """Take the missing answers as empty."""
-        self._answers.give_up()
+        """Take the answers for which samples wait as empty."""
+        if self._held:
+            self._answers.give_up(int(self._held.imu.stamp_ns[0]))
 
     def resume(self) -> tuple[NavBlock, list[StepEvent]]:
         """Go on with the samples that waited; return what `run` does."""
         held, self._held = self._held, None
+        self.handovers = []
         return self.run(held) if held else (empty_nav(0), [])
 
     @property

@@ -28,12 +28,6 @@ def innovation(P: Floats, H: Floats, R: Floats, residual: Floats) -> Innovation:
 
 
 @compiled
-def inflated(y: Innovation, factor: float) -> Innovation:
-    """Return the innovation with a noise R that makes S larger by a factor."""
-    return Innovation(y.residual, y.HP, y.S * factor, y.S_inverse / factor)
-
-
-@compiled
 def normalised_squared(y: Innovation) -> float:
     """Return y' S^-1 y, which is chi-square distributed with m degrees of freedom where the model holds."""
     total = 0.0

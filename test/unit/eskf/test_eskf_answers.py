@@ -119,6 +119,15 @@ def test_giving_up_goes_on_and_says_so():
     assert [(n.kind, n.count) for n in f.notices] == [("heading_unanswered", 1)]
 
 
+def test_giving_one_answer_up_leaves_the_others_their_time():
+    f = ZuptFilter(changed(ASKING, "filter", heading_due_s=2.0).filter, ASKING.place)
+    _, steps = f.run(JUDGED)
+    assert len(steps) > 1
+    f.give_up_answers()
+    f.answer(observed(steps[1]))
+    assert [(n.kind, n.count) for n in f.notices] == [("heading_unanswered", 1)]
+
+
 @pytest.mark.parametrize(
     ("wrong", "kind"),
     [

@@ -110,7 +110,7 @@ def test_two_hours_of_standing_and_walking_keep_the_covariance_positive():
         scaled = f.state.P / np.sqrt(np.outer(np.diag(f.state.P), np.diag(f.state.P)))
         assert np.linalg.eigvalsh(scaled)[0] > 0.0
     assert ends > 1000
-    assert f.state.rejected < 0.01 * f.state.accepted
+    assert f.state.contradicted < 0.01 * f.state.accepted
 
 
 def test_the_twist_covariance_is_that_of_the_velocity_in_the_foot_frame():

@@ -137,7 +137,7 @@ def test_a_dip_in_mid_swing_hardly_counts_and_a_stance_that_goes_on_makes_the_fi
     agreed = [stands(state, t * 5 * MS) for t in range(19)]
     assert not any(agreed)
     assert state.velocity_mps[0] > 4.9
-    assert (state.rejected, state.doubted) == (19, 0)
+    assert (state.contradicted, state.doubted) == (19, 0)
     agreed = [stands(state, t * 5 * MS) for t in range(19, 60)]  # the release time is 0.1 s
     assert state.doubted == 1
     assert all(agreed[2:])
@@ -196,7 +196,7 @@ def test_beyond_hubers_limit_a_stance_counts_less(excess):
     assert state.normalised_innovation == pytest.approx(d2)
     R = SD**2 * max(1.0, excess)
     assert state.velocity_mps[0] == pytest.approx(before * R / (variance + R))
-    assert (state.accepted, state.rejected) == (1, 0)
+    assert (state.accepted, state.contradicted) == (1, 0)
 
 
 @pytest.mark.parametrize("tilt", [[0.3, 0.0], [0.0, -0.3], [1.5, 2.0], [3.14, 0.0]])

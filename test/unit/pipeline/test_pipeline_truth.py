@@ -119,7 +119,7 @@ def normalised_errors(seed, zero_velocity_sd=0.005, rate_hz=100.0):
                 speed = motion.velocity_mps[i] - f.state.velocity_mps
                 P = f.state.P
                 found.append([speed @ np.linalg.solve(P[3:6, 3:6], speed), turn @ np.linalg.solve(P[6:8, 6:8], turn)])
-    assert f.state.rejected <= 0.02 * f.state.accepted
+    assert f.state.contradicted <= 0.02 * f.state.accepted
     return np.array(found)
 
 
