@@ -47,7 +47,7 @@ class Throttle:
         """Whether the chain takes what is sent."""
         if not self._stalls:
             return []
-        text = f"nothing on {self._topic} for {STALLED_S:.0f} s, {ON_THEIR_WAY} more samples were sent: does the chain run?"
+        text = f"nothing on {self._topic} for {STALLED_S:.0f} s, sent {ON_THEIR_WAY} more: does the chain run?"
         return [Notice(Level.WARN, "not_acknowledged", text, self._stalls, 0)]
 
     def wait_s(self, _stamp_ns: int) -> float:
