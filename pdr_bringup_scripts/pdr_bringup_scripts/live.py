@@ -1,10 +1,11 @@
 """Runs the nodes on a device, records what they say, and judges the recording."""
 
 import time
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 from pdr_bringup_scripts.book import Book, make_folder
@@ -16,6 +17,7 @@ from pdr_bringup_scripts.terminal import Terminal
 from pdr_core.evaluation.result import Result
 from pdr_core.params import Params, params_as_mapping
 from pdr_core.recording import Sensor, open_recording
+from pdr_core.recording.bag_writer import BagWriter
 from pdr_core.records import length
 from pdr_core.simulation import walk_duration_s
 from pdr_core.warmup import warm_up
@@ -28,6 +30,7 @@ AFTERWARDS_S = 1.5  # beyond the time after which the nodes give out what waits
 NOTHING_S = 30.0
 IDLE_MAX_S = 10.0
 SHOW_EVERY = 20  # odometry messages
+SAMPLES = "/imu/data_raw"  # in the recording
 
 
 def live_run(
@@ -42,13 +45,32 @@ def live_run(
 
     The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
     """
-    make_folder(out)
+    make_run_folder(out)
     params = for_one_run(params)
     warm_up()  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", domain)
     record(params, out, namespace, terminal)
     return judge(params, out, time.monotonic() - begin, source, namespace)
+
+
+def make_run_folder(out: Path) -> None:
+    """Create the folder of a run; Problem if it holds the recording of another."""
+    if (out / BAG).exists():
+        raise Problem(f"{out / BAG} exists already: choose another folder by --out, or remove it")
+    make_folder(out)
+
+
+@contextmanager
+def new_recording(path: Path) -> Iterator[BagWriter]:
+    """Write a bag while the block runs; one without a sample does not stay."""
+    bag = bag_writer(path)
+    try:
+        with bag:
+            yield bag
+    finally:
+        if SAMPLES not in bag.topics:
+            rmtree(path, ignore_errors=True)
 
 
 def for_one_run(params: Params) -> Params:
@@ -66,7 +88,7 @@ def record(params: Params, out: Path, namespace: str, terminal: Terminal) -> Non
     """Run the nodes and write all they say to a bag."""
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
-        bag = stack.enter_context(bag_writer(out / BAG))
+        bag = stack.enter_context(new_recording(out / BAG))
         watch = Watch(bag.write, show, total(params))
         ears = stack.enter_context(Ears(watch.take, namespace))
         chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), namespace))

@@ -6,11 +6,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pdr_bringup_scripts.book import make_folder
 from pdr_bringup_scripts.chain import DRIVER, NODES, Chain, stay_on_this_machine
 from pdr_bringup_scripts.interrupt import Interrupt
-from pdr_bringup_scripts.listener import TOPICS, Ears, bag_writer
-from pdr_bringup_scripts.live import BAG, Watch, judge, quiet_for_good_s
+from pdr_bringup_scripts.listener import TOPICS, Ears
+from pdr_bringup_scripts.live import BAG, Watch, judge, make_run_folder, new_recording, quiet_for_good_s
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.relay import INPUT, DriverTopics, Relay
 from pdr_bringup_scripts.terminal import Terminal
@@ -45,7 +44,7 @@ def checked_topic(name: str, namespace: str) -> str:
 
 def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> Result:
     """Estimate what a driver publishes until Ctrl-C, the duration or our own driver ends it; fill the folder `out`."""
-    make_folder(out)
+    make_run_folder(out)
     params = replace(params, node=replace(params.node, input_reliable=True, autostart=True))  # the relay is ours
     warm_up()
     begin = time.monotonic()
@@ -60,7 +59,7 @@ def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
     with ExitStack() as stack:
         interrupt = stack.enter_context(Interrupt())
         show = stack.enter_context(terminal.progress("Listening"))
-        bag = stack.enter_context(bag_writer(out / BAG))
+        bag = stack.enter_context(new_recording(out / BAG))
         watch = Watch(bag.write, show, "")
         ears = stack.enter_context(Ears(watch.take, job.namespace, ours))
         relay = Relay(ears.node, job.topics, watch.take)
@@ -74,6 +73,7 @@ def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
             silence.look()
         relay.close()
         if relay.first_s is None:
+            chain.check()
             raise Problem(relay.why_silent())
         show("ending: the nodes give out what they still hold")
         while watch.quiet_s < quiet_s:

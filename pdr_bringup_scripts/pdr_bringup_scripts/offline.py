@@ -22,6 +22,7 @@ def run_recording(
 ) -> Result | SensorsResult:
     """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several."""
     chosen = chosen_sensors(session, sensor)
+    check_output(out, session)
     warm_up()
     if len(chosen) == 1:
         return run_sensor(session, chosen[0], params, out, terminal)
@@ -30,6 +31,12 @@ def run_recording(
     if out:
         (out / "result.json").write_text(together.to_json() + "\n")
     return together
+
+
+def check_output(out: Path | None, session: Session) -> None:
+    """Problem if the folder for the files is the recording."""
+    if out and out.resolve() == session.path.resolve():
+        raise Problem(f"{out} is the recording itself: choose another folder by --out")
 
 
 def chosen_sensors(session: Session, name: str | None) -> list[Sensor]:

@@ -18,6 +18,8 @@ HEADER = """\
 
 def load_params(path: Path) -> Params:
     """Read a parameter file; raises ParameterError with one sentence if it cannot be used."""
+    if not path.exists():
+        raise ParameterError(f"{path} does not exist: check the path")
     try:
         content = yaml.safe_load(path.read_text())
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:

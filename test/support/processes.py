@@ -33,3 +33,11 @@ def pdr(*arguments: object, cwd: Path | None = None, **environment: str) -> subp
     """Run a `pdr` command to its end."""
     command = [sys.executable, "-m", "pdr_bringup_scripts", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=os.environ | environment, timeout=300)
+
+
+def check_refused(answer: subprocess.CompletedProcess, *words: str) -> None:
+    """Assert one sentence on stderr, exit code 2, nothing on stdout."""
+    assert answer.stderr.startswith("pdr: ")
+    assert answer.stderr.count("\n") == 1
+    assert [word for word in words if word not in answer.stderr] == []
+    assert (answer.returncode, answer.stdout) == (2, "")

@@ -1,6 +1,6 @@
 import json
 
-from support.processes import pdr
+from support.processes import check_refused, pdr
 
 
 def test_the_bench_prints_tables():
@@ -18,3 +18,7 @@ def test_the_bench_prints_json():
     assert {row["sensor_model"] for row in found["table_1"]} >= {"gui_table_1", "gui_table_1_deg"}
     found = json.loads(pdr("bench", "--stress", "--seeds", 2, "--json").stdout)
     assert found["summary"][0]["walks"] == len(found["walks"]) == 2
+
+
+def test_the_length_of_a_stress_walk_cannot_be_chosen():
+    check_refused(pdr("bench", "--stress", "--length", 5), "--stress", "leave out --length")

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from support.processes import pdr
+from support.processes import check_refused, pdr
 from support.walks import straight_walk, write_csv
 
 
@@ -71,6 +71,48 @@ def test_what_exists_stays_unless_force_is_given(folder, tmp_path):
     assert "exists already: choose another name, or replace it with --force" in answer.stderr
     done("convert", folder / "walk", tmp_path / "copy.mcap", "--force")
     assert [p.name for p in tmp_path.iterdir()] == ["copy.mcap"]
+
+
+@pytest.mark.parametrize("name", ["walk", "simulated", "walk.csv"])
+def test_a_simulated_walk_is_replaced_by_force_only(name, tmp_path):
+    walk = ("simulate", "--walk", "straight", "--length", 1.2, "--rate", 50, "--out", name)
+    done(*walk, cwd=tmp_path)
+    check_refused(pdr(*walk, cwd=tmp_path), "exists already: choose another name, or replace it with --force")
+    done(*walk, "--force", cwd=tmp_path)
+
+
+def test_a_walk_shorter_than_a_stride_is_refused(tmp_path):
+    answer = pdr("simulate", "--length", 1.1, "--out", tmp_path / "walk")
+    assert (answer.returncode, "--length" in answer.stderr) == (2, True)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_file_goes_into_the_recording(folder):
+    before = sorted((folder / "walk").iterdir())
+    check_refused(pdr("run", "walk", "--out", folder / "walk", cwd=folder), "is the recording itself", "--out")
+    assert sorted((folder / "walk").iterdir()) == before
+
+
+def test_a_page_does_not_replace_the_trajectory(folder):
+    trajectory = folder / "result of walk" / "trajectory.tum"
+    before = trajectory.read_bytes()
+    check_refused(pdr("evaluate", trajectory, folder / "walk", "--report", trajectory), "--report", ".html")
+    assert trajectory.read_bytes() == before
+
+
+@pytest.mark.parametrize("value", ["inf", "1e300"])
+def test_an_endless_difference_is_refused(value, folder):
+    trajectory = folder / "result of walk" / "trajectory.tum"
+    check_refused(pdr("evaluate", trajectory, folder / "walk", "--max-difference", value), "--max-difference", "finite")
+
+
+@pytest.mark.parametrize("value", ["nan", "-1"])
+def test_a_difference_below_zero_or_none_is_refused(value, folder):
+    trajectory = folder / "result of walk" / "trajectory.tum"
+    answer = pdr("evaluate", trajectory, folder / "walk", "--max-difference", value)
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "--max-difference" in answer.stderr
+    assert "Traceback" not in answer.stderr
 
 
 def test_what_could_not_be_read_is_a_warning(folder, tmp_path):

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from support.processes import pdr
+from support.processes import check_refused, pdr
 from support.walks import COLUMNS, straight_walk, write_csv
 
 WALK = {"recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "strides", "distance_m"}
@@ -68,17 +68,21 @@ def bad_file(folder, name, text):
     return path
 
 
-def check_refused(answer, *words):
-    """One sentence on stderr, exit code 2, nothing on stdout."""
-    assert answer.stderr.startswith("pdr: ")
-    assert answer.stderr.count("\n") == 1
-    assert [word for word in words if word not in answer.stderr] == []
-    assert (answer.returncode, answer.stdout) == (2, "")
-
-
 @pytest.mark.parametrize("command", ["run", "replay"])
 def test_a_missing_file_is_refused(command, tmp_path):
     check_refused(pdr(command, tmp_path / "no.csv", cwd=tmp_path), "no.csv", "does not exist")
+
+
+@pytest.mark.parametrize("command", ["demo", "live", "replay"])
+def test_the_recording_of_another_run_stays(command, walk, tmp_path):
+    (tmp_path / "out" / "recording").mkdir(parents=True)
+    given = [walk] if command == "replay" else []
+    check_refused(pdr(command, *given, "--out", tmp_path / "out"), "recording exists already", "--out")
+    assert not (tmp_path / "out" / "nodes").exists()
+
+
+def test_a_missing_parameter_file_is_refused(walk, tmp_path):
+    check_refused(pdr("run", walk, "--params", tmp_path / "no.yaml"), "no.yaml does not exist: check the path")
 
 
 def test_an_unknown_sensor_is_refused(two_feet, tmp_path):

@@ -101,6 +101,16 @@ def test_nothing_to_hear_is_one_sentence(tmp_path):
     assert (answer.returncode, answer.stdout) == (2, "")
     assert answer.stderr.startswith("pdr: no messages on /nowhere yet: nobody publishes ")
     assert answer.stderr.count("\n") == 1
+    assert not (tmp_path / "out" / "recording").exists()
+
+
+def test_the_failure_of_our_driver_is_told(tmp_path):
+    params = tmp_path / "mine.yaml"
+    params.write_text("/**: {ros__parameters: {driver: {recording: nothere.csv}}}\n")
+    answer = pdr("live", "--driver", "replayed", "--params", params, "--out", tmp_path / "out")
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "imu_driver has failed: nothere.csv does not exist" in answer.stderr
+    assert not (tmp_path / "out" / "recording").exists()
 
 
 def test_a_driver_of_ours_is_started_and_ends_the_run(tmp_path):
@@ -120,6 +130,9 @@ def test_a_driver_of_ours_is_started_and_ends_the_run(tmp_path):
         (("--imu", "/imu/data", "--namespace", "two feet"), "no namespace"),
         (("--imu", "my imu"), "no ROS topic"),
         (("--imu", "/imu", "--mag", "imu"), "cannot be both"),
+        (("--driver", "replayed"), "driver.recording"),
+        (("--duration", "inf"), "--duration inf"),
+        (("--duration", "0"), "--duration"),
         (("--driver", "teapot"), "driver.device = 'teapot'"),
     ],
 )

@@ -2,21 +2,29 @@
 
 import typer
 
+from pdr_bringup_scripts.options import finite
+
 
 def bench(
     stress: bool = typer.Option(False, "--stress", help="instead: seeded walks of every gait with every trouble"),
     seeds: int = typer.Option(None, min=1, help="walks; default: 100 of each consistency campaign, 500 of --stress"),
-    length: float = typer.Option(100.0, min=1.2, help="length of these walks [m]"),
+    length: float = typer.Option(
+        None, min=1.2, callback=finite, help="length of the consistency walks [m]; default: 100"
+    ),
     json: bool = typer.Option(False, "--json", help="print everything as one JSON object"),
 ) -> None:
     """Measure mechanisation, Gui's Table 1 and the filter's consistency on simulated walks.
 
     Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`, or `pdr bench --stress`
     """
+    from pdr_bringup_scripts.problems import Problem
+
+    if stress and length:
+        raise Problem("the walks of --stress have lengths of their own: leave out --length")
     if stress:
         run_stress(seeds or 500, json)
     else:
-        run_figures(seeds or 100, length, json)
+        run_figures(seeds or 100, length or 100.0, json)
 
 
 def run_stress(seeds: int, json: bool) -> None:

@@ -6,7 +6,7 @@ import typer
 
 
 def replay(
-    recording: Path = typer.Argument(help="rosbag2 directory, .mcap, .db3, .csv or .mat"),
+    recording: Path = typer.Argument(help="rosbag2 directory, .mcap, .db3, ROS 1 .bag, .csv or .mat"),
     out: Path = typer.Option(None, "--out", "-o", help="folder for recording, trajectory, result and report"),
     rate: float = typer.Option(1.0, help="speed; 0: as fast as the nodes take it"),
     sensor: str = typer.Option("", help="which sensor of the recording, if it has several"),

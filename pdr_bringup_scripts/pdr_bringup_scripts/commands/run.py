@@ -6,7 +6,7 @@ import typer
 
 
 def run(
-    recording: Path = typer.Argument(help="rosbag2 directory, .mcap, .db3, .csv or .mat"),
+    recording: Path = typer.Argument(help="rosbag2 directory, .mcap, .db3, ROS 1 .bag, .csv or .mat"),
     out: Path = typer.Option(None, "--out", "-o", help="folder for trajectory, strides, result and report"),
     json: bool = typer.Option(False, "--json", help="print the result as one JSON object"),
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),

@@ -9,7 +9,7 @@ def simulate(
     out: Path = typer.Option("simulated_walk", "--out", "-o", help="NAME.csv, NAME.mcap, or a rosbag2 directory"),
     motion: str = typer.Option(None, help="how the foot moves: smooth, or gui, as his paper prints it"),
     walk: str = typer.Option(None, help="rectangle, straight or still; smooth also: curve, stairs, run or mixed"),
-    length: float = typer.Option(None, help="length of the walk [m]"),
+    length: float = typer.Option(None, min=1.2, help="length of the walk [m]"),
     rate: float = typer.Option(None, help="samples per second [Hz]"),
     sensor: str = typer.Option(None, help="how good the sensor is: ideal, consumer, gui_table_1 or gui_table_1_deg"),
     seed: int = typer.Option(None, help="seed of the noise: the same seed, the same walk"),
@@ -32,5 +32,5 @@ def simulate(
         "sample_rate_hz": rate, "sensor_model": sensor, "seed": seed,
     }  # fmt: skip
     given = {name: value for name, value in wanted.items() if value is not None}
-    session = simulated_session(chosen, given, out)
+    session = simulated_session(chosen, given)
     save(session, list(session.sensors.values()), out, force, "Simulating", Terminal())

@@ -75,9 +75,11 @@ class SensorsResult:
 
 
 def in_words(result: Result | SensorsResult) -> str:
-    """Return two to four plain sentences; one line for each of several sensors."""
+    """Return one to four plain sentences; one line for each of several sensors."""
     if isinstance(result, SensorsResult):
         return "\n".join(f"{name}: {in_words(one)}" for name, one in result.sensors.items())
+    if not result.strides:
+        return " ".join([f"No stride was found within {duration(result.duration_s)}.", *_notices(result.notices)])
     walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, 'stride')}"
     sentences = [f"{walked} within {duration(result.duration_s)}.", *_error(result), *_notices(result.notices)]
     return " ".join(sentences)
@@ -89,11 +91,12 @@ def _error(result: Result) -> list[str]:
     if truth is None:
         return [f"The estimate ends {closure} from where it began; the true path is not known."]
     at_end = f"{metres(truth.end_error_m)} ({share(truth.end_error_percent)} of the distance)"
-    if truth.kind is TruthKind.CLOSED_LOOP:
+    if truth.kind is TruthKind.CLOSED_LOOP and math.isfinite(truth.end_error_percent):
         return [f"The walk ended where it began, so the estimate is {at_end} off at the end."]
     if not math.isfinite(truth.ate2_m):
         return ["The track could not be compared with the true path."]
-    sentences = [f"It was on average {metres(truth.ate2_m)} off the true path, and {at_end} off at the end."]
+    end = f", and {at_end} off at the end" if math.isfinite(truth.end_error_percent) else ""
+    sentences = [f"It was on average {metres(truth.ate2_m)} off the true path{end}."]
     if truth.kind is TruthKind.STRIDES and truth.stride_count_true != result.strides:
         sentences.append(f"In truth there were {counted(truth.stride_count_true, 'stride')}.")
     return sentences

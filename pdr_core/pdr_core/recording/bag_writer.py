@@ -42,6 +42,11 @@ class BagWriter:
         """Write the index and metadata.yaml."""
         self._writer.__exit__(kind, error, trace)
 
+    @property
+    def topics(self) -> frozenset[str]:
+        """Topics that have a message."""
+        return frozenset(self._connections)
+
     def write(self, topic: str, msgtype: str, stamp_ns: int, cdr: bytes) -> None:
         """Append one message, stamped [ns]; its type must be one of Jazzy or of the definitions."""
         if topic not in self._connections:

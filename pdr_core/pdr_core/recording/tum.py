@@ -36,6 +36,8 @@ def append_tum(file: TextIO, trajectory: Trajectory) -> None:
 def read_tum(path: Path) -> Trajectory:
     """Read a TUM file; RecordingError if it is missing or a row does not hold eight numbers."""
     dtype = np.dtype([("stamp_ns", np.int64), ("pose", np.float64, (7,))])
+    if not path.exists():
+        raise RecordingError(f"{path} does not exist: check the path.")
     try:
         lines = [line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
         table = _loaded(lines, dtype) if lines else np.empty(0, dtype)

@@ -115,8 +115,8 @@ def test_an_integer_too_large_for_a_float_is_told_in_one_sentence():
 
 def test_a_missing_file_and_a_file_of_bytes_are_told_in_one_sentence(tmp_path):
     (tmp_path / "bytes.yaml").write_bytes(b"\xff\xfe\x00")
-    for name in ("none.yaml", "bytes.yaml"):
-        with pytest.raises(ParameterError, match="cannot be read"):
+    for name, reason in (("none.yaml", "does not exist: check the path"), ("bytes.yaml", "cannot be read")):
+        with pytest.raises(ParameterError, match=reason):
             load_params(tmp_path / name)
 
 

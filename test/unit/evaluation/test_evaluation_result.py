@@ -90,6 +90,21 @@ def test_words_with_truth(make):
     assert "could not be compared" in in_words(make.result_of(truth=TruthScore(TruthKind.POSITION)))
 
 
+def test_no_stride_is_no_success(make):
+    score = TruthScore(TruthKind.POSITION, 0.0, 0.0, 0.0, math.nan)
+    assert in_words(make.result_of(strides=0, distance_m=0.0, truth=score, notices=[])) == (
+        "No stride was found within 1 min 40 s."
+    )
+    assert "Warning: The sensor was silent" in in_words(make.result_of(strides=0))
+
+
+def test_an_unknown_share_of_the_distance_is_not_said(make):
+    score = TruthScore(TruthKind.POSITION, 0.05, 0.07, 0.42, math.nan)
+    assert in_words(make.result_of(truth=score, notices=[])).endswith("It was on average 0.05 m off the true path.")
+    score = TruthScore(TruthKind.CLOSED_LOOP, end_error_m=0.06)
+    assert in_words(make.result_of(truth=score, notices=[])).endswith("could not be compared with the true path.")
+
+
 def test_the_worst_notice_comes_first_and_notes_stay_silent(make):
     notices = [
         Notice(Level.OK, "a", "Fine", 1, 0),

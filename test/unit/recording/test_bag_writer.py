@@ -36,6 +36,13 @@ def test_the_bag_is_mcap_and_carries_its_own_definitions(tmp_path):
     assert [f.suffix for f in sorted((tmp_path / "out").iterdir())] == [".yaml", ".mcap"]
 
 
+def test_it_knows_which_topics_have_a_message(tmp_path):
+    with BagWriter(tmp_path / "out", {}) as writer:
+        assert writer.topics == set()
+        writer.write("/imu/data_raw", IMU, stamp(0), imu_cdr(0))
+        assert writer.topics == {"/imu/data_raw"}
+
+
 def test_an_imu_topic_opens_as_a_recording(tmp_path):
     block = next(open_recording(written(tmp_path / "out")).sensors["imu"].pieces())
     assert block.stamp_ns.tolist() == [stamp(i) for i in range(5)]

@@ -61,5 +61,5 @@ def test_a_file_that_is_no_trajectory_is_an_error(tmp_path, text):
 
 
 def test_a_missing_file_is_an_error(tmp_path):
-    with pytest.raises(RecordingError, match=r"none\.tum"):
+    with pytest.raises(RecordingError, match=r"none\.tum does not exist: check the path"):
         read_tum(tmp_path / "none.tum")
