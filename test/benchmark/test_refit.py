@@ -67,9 +67,7 @@ def test_constants_refitted_without_a_date_hold_on_that_date(recordings: Path) -
         print(f"\n{date}: {len(of_date):2} trials, mean {of_date.mean():.4f} m, draw {draw}:", end="")
         print(*(f" {name.split('.')[1]} x{x:.2f}" for name, x in zip(CONSTANTS, draws[draw], strict=True)), end="")
     means_m = error_m.mean(axis=1)
-    print(
-        f"\nunseen dates: mean {unseen_m.mean():.4f} m, worst {unseen_m.max():.4f} m of {len(unseen_m)} trials", end=""
-    )
+    print(f"\nunseen: mean {unseen_m.mean():.4f} m, worst {unseen_m.max():.4f} m of {len(unseen_m)} trials", end="")
     print(f"; all draws: mean {means_m.min():.4f} .. {np.median(means_m):.4f} .. {means_m.max():.4f} m", end="")
     assert (len(chosen), len(unseen_m)) == (5, 28)
     assert unseen_m.mean() <= LIMIT_M
