@@ -35,6 +35,7 @@ def test_no_sample_is_lost_on_the_way_to_the_filter(rate_hz: float, tmp_path: Pa
     show(run, rate_hz, len(run.ear.arrived) / seconds, delays_ms(run.ear, waited_for))
     assert len(run.ear.sent) == length(raw)
     assert run.ear.taken == length(raw)
+    assert len(run.ear.arrived) / seconds <= 1.01 * params.node.odom_rate_hz
 
 
 def newest_stamps(raw: ImuBlock, params: Params) -> dict[int, int]:

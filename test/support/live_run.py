@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 from sensor_msgs.msg import Imu
 
-from pdr_bringup_scripts.chain import Chain
+from pdr_bringup_scripts.chain import NAMESPACE, Chain
 from pdr_core.params import Params, params_as_mapping
 from pdr_msgs.msg import FilterHealth
 from pdr_nodes.qos import OWN, STATUS
@@ -30,7 +30,7 @@ class Ear(Node):
     """
 
     def __init__(self) -> None:
-        super().__init__("ear", start_parameter_services=False)
+        super().__init__("ear", namespace=NAMESPACE, start_parameter_services=False)
         self.sent: dict[int, int] = {}  # header stamp -> time of publication, both [ns]
         self.arrived: dict[int, int] = {}  # header stamp -> time of reception, both [ns]
         self.taken = 0
@@ -64,7 +64,7 @@ class LiveRun:
         try:
             self.ear = Ear()
             self._samples = samples
-            with Chain(logs, params_as_mapping(params)) as chain:
+            with Chain(logs, params_as_mapping(params), NAMESPACE) as chain:
                 self._listen(chain, seconds)
         finally:
             rclpy.try_shutdown()
