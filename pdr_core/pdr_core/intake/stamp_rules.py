@@ -13,7 +13,7 @@ from pdr_core.intake.even_stamps import even_stamp
 from pdr_core.intake.stamp_faults import Fault
 from pdr_core.intake.stamp_state import NOBODY, StampState, learn, missing_before, rushes
 from pdr_core.maths.compiled import compiled
-from pdr_core.records import ImuBlock, Stamps
+from pdr_core.records import Floats, ImuBlock, Stamps
 
 LATEST_NS = 2**62  # in the year 2116; so no difference of two stamps overflows
 CLOCK_SET_NS = 60_000_000_000  # no pause within a walk is longer
@@ -93,17 +93,17 @@ def meet(block: ImuBlock, i: int, limits: StampLimits, state: StampState, out: V
             release(block, limits, state, out)
     elif -limits.restart_ns <= (since_waiting_ns if nearer_to_waiting else since_last_ns) <= 0:
         out.fault[i] = Fault.LATE
+    elif within_reach:
+        release(block, limits, state, out)
+        take(block, i, limits, state, out)
     else:
-        if within_reach:
-            release(block, limits, state, out)
-        else:
-            out.fault[w] = Fault.STRAY
-            state.waiting = NOBODY
+        out.fault[w] = Fault.STRAY
+        state.waiting = NOBODY
         take(block, i, limits, state, out)
 
 
 @compiled
-def repeated(block: ImuBlock, i: int, gyro: Stamps, accel: Stamps, limits: StampLimits) -> int:
+def repeated(block: ImuBlock, i: int, gyro: Floats, accel: Floats, limits: StampLimits) -> int:
     """Return what sample i is, whose stamp is that of the one before it with these values."""
     if np.all(block.gyro_radps[i] == gyro) and np.all(block.accel_mps2[i] == accel):
         return Fault.DUPLICATE
