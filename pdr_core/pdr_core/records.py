@@ -29,6 +29,9 @@ class ImuBlock(NamedTuple):
     accel_sd_mps2: Floats  # (n,)
 
 
+NO_SAMPLES = ImuBlock(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
+
+
 class StanceBlock(NamedTuple):
     """n samples and the verdict on each. A rest that has just ended brings its mean rate; a deviation of 0: none."""
 

@@ -1,6 +1,7 @@
 """Between messages and records: the only place where the two meet. Stamps are int64 nanoseconds on our side."""
 
 import math
+import struct
 import sys
 
 import numpy as np
@@ -25,6 +26,12 @@ def time_message(stamp_ns: int) -> Time:
 def stamp_ns(time: Time) -> int:
     """Return a stamp [ns]."""
     return time.sec * NANOSECONDS + time.nanosec
+
+
+def header_stamp_ns(cdr: bytes) -> int:
+    """Return the stamp [ns] of a serialised message that begins with a header, after 4 bytes of encapsulation."""
+    seconds, nanoseconds = struct.unpack_from("<iI", cdr, 4)
+    return seconds * NANOSECONDS + nanoseconds
 
 
 def vector(v: Floats) -> Vector3:

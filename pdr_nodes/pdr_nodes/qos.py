@@ -2,7 +2,8 @@
 
 Between our own nodes nothing may be lost: reliable, with a queue for ten seconds at 1 kHz, and late joiners get what
 was said before they came. Any driver may feed us: best effort, which connects to reliable publishers too, with a queue
-deep enough that a pause of the interpreter loses nothing.
+deep enough that a pause of the interpreter loses nothing. Answers of the past are to questions of the past: who joins
+late does not get them.
 """
 
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -17,6 +18,12 @@ FOREIGN_INPUT = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
     depth=1000,
     reliability=ReliabilityPolicy.BEST_EFFORT,
+    durability=DurabilityPolicy.VOLATILE,
+)
+ANSWERS = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=1000,
+    reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.VOLATILE,
 )
 STATUS = QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=10, reliability=ReliabilityPolicy.RELIABLE)

@@ -1,15 +1,14 @@
 """Plays as fast as the chain takes it: only so many samples are on their way at a time."""
 
-import struct
 import time
 from collections import deque
 
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.subscription import Subscription
 
-from pdr_core.conventions import NANOSECONDS
 from pdr_core.records import Level, Notice
+from pdr_nodes.convert import header_stamp_ns
+from pdr_nodes.hearing import Hearing
 from pdr_nodes.qos import OWN
 
 ON_THEIR_WAY = 1000  # a tenth of what the queue of a topic holds, so that none can overflow
@@ -21,26 +20,24 @@ class Throttle:
     """Takes a stamp that the end of the chain publishes as acknowledgement of all samples up to it."""
 
     def __init__(self, node: Node, topic: str) -> None:
-        self._node, self._topic = node, topic
+        self._topic = topic
+        self._hearing = Hearing(node, Odometry, topic, self._acknowledge, OWN, raw=True)
         self._stamps_ns: deque[int] = deque()
         self._moved_s = 0.0  # when the last acknowledgement came, or the first sample after all were acknowledged left
-        self._subscription: Subscription | None = None
         self._stalls = 0
 
     def begin(self) -> None:
         """Listen to the end of the chain."""
-        self._subscription = self._node.create_subscription(Odometry, self._topic, self._acknowledge, OWN, raw=True)
+        self._hearing.begin()
 
     def end(self) -> None:
         """Listen no more."""
-        if self._subscription:
-            self._node.destroy_subscription(self._subscription)
-            self._subscription = None
+        self._hearing.end()
 
     @property
     def ready(self) -> bool:
         """Somebody is there to acknowledge."""
-        return self._subscription is not None and self._subscription.get_publisher_count() > 0
+        return self._hearing.publishers > 0
 
     @property
     def notices(self) -> list[Notice]:
@@ -64,8 +61,7 @@ class Throttle:
         self._stamps_ns.append(stamp_ns)
 
     def _acknowledge(self, cdr: bytes) -> None:
-        seconds, nanoseconds = struct.unpack_from("<iI", cdr, 4)  # the header's stamp follows 4 bytes of encapsulation
-        stamp_ns = seconds * NANOSECONDS + nanoseconds
+        stamp_ns = header_stamp_ns(cdr)
         self._moved_s = time.monotonic()
         while self._stamps_ns and self._stamps_ns[0] <= stamp_ns:
             self._stamps_ns.popleft()

@@ -13,12 +13,12 @@ from pdr_core.warmup import warm_up
 from pdr_msgs.msg import FilterHealth, HeadingObservation, StanceImu, StepEvent
 from pdr_msgs.msg import Handover as HandoverMessage
 from pdr_msgs.srv import ResetEstimate
-from pdr_nodes.answers import AnswerInput
 from pdr_nodes.convert import health_message, odometry_message, pose_estimate, stance_block, step_message
 from pdr_nodes.convert_feedback import handover_message, heading_observation
+from pdr_nodes.hearing import Hearing
 from pdr_nodes.managed import ManagedNode
 from pdr_nodes.patience import Patience
-from pdr_nodes.qos import STATUS
+from pdr_nodes.qos import ANSWERS, STATUS
 from pdr_nodes.rate_limit import RateLimit
 from pdr_nodes.run import run
 from pdr_nodes.transforms import TransformBroadcaster
@@ -54,7 +54,7 @@ class ZuptEkfNode(ManagedNode):
         self.tell("track", lambda: self._filter.notices)
 
     def _wait_for_answers(self, while_s: float) -> None:
-        self.part(AnswerInput(self, HeadingObservation, "heading_observation", self._answered))
+        self.part(Hearing(self, HeadingObservation, "heading_observation", self._answered, ANSWERS))
         self.every(PATIENCE_PERIOD_S, Patience(while_s, lambda: self._filter.waits, self._go_on_unanswered).look)
 
     def _take(self, block: StanceBlock) -> None:

@@ -10,10 +10,9 @@ from pdr_core.params import Params, changed
 from pdr_core.records import HeadingObservation, HeadingSource, joined, length
 from pdr_msgs.msg import Handover, StanceImu, StepEvent
 from pdr_msgs.msg import HeadingObservation as HeadingMessage
-from pdr_nodes.answers import ANSWERS
 from pdr_nodes.convert import nav_block, step_event
 from pdr_nodes.convert_feedback import handover_record, heading_message
-from pdr_nodes.qos import STATUS
+from pdr_nodes.qos import ANSWERS, STATUS
 from pdr_nodes.zupt_ekf_node import ZuptEkfNode
 from support.bench import Bench
 from support.walks import judged, stance_messages, straight_walk

@@ -1,6 +1,5 @@
 """A live run as one who only listens sees it: topics, stamps and processes, nothing of the nodes' insides."""
 
-import struct
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,6 +14,7 @@ from sensor_msgs.msg import Imu
 from pdr_bringup_scripts.chain import NAMESPACE, Chain
 from pdr_core.params import Params, params_as_mapping
 from pdr_msgs.msg import FilterHealth
+from pdr_nodes.convert import header_stamp_ns
 from pdr_nodes.qos import OWN, STATUS
 from support.usage import usage
 
@@ -86,9 +86,3 @@ class LiveRun:
         while not condition() and time.monotonic() < deadline_s:
             self.ear.listen()
             time.sleep(0.02)
-
-
-def header_stamp_ns(cdr: bytes) -> int:
-    """Return the stamp of a serialised message that begins with a header, after 4 bytes of encapsulation."""
-    seconds, nanoseconds = struct.unpack_from("<iI", cdr, 4)
-    return seconds * 10**9 + nanoseconds

@@ -10,7 +10,7 @@ import numpy as np
 
 from pdr_core.eskf.error_state import ATTITUDE, SIZE
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import matrix
+from pdr_core.maths.quaternion import rows
 from pdr_core.maths.vector import Vector, norm, rotated
 from pdr_core.records import Floats
 
@@ -29,7 +29,7 @@ def tilt_is_lost(P: Floats) -> bool:
 @compiled
 def residual(quat_xyzw: Floats, force_mps2: Vector) -> Floats:
     """Return the turn [rad] about world x and y that lays the measured force (foot frame) on the vertical, (2,)."""
-    up = rotated(matrix(quat_xyzw), force_mps2)
+    up = rotated(rows(quat_xyzw), force_mps2)
     across = np.hypot(up[0], up[1])
     angle = np.arctan2(across, up[2])
     if across < 1e-9 * norm(up):

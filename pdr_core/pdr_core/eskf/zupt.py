@@ -16,7 +16,7 @@ that for a bias (measured on real walks: 1.2 m instead of 0.6 m mean error).
 
 from pdr_core.eskf.error_state import GYRO_BIAS, VELOCITY, observing
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import matrix
+from pdr_core.maths.quaternion import rows
 from pdr_core.maths.vector import Triple, Vector, rotated
 from pdr_core.records import Floats
 
@@ -26,7 +26,7 @@ H = observing(VELOCITY)
 @compiled
 def rolling_velocity(quat_xyzw: Floats, rate_radps: Vector, height_m: float) -> Triple:
     """Return the velocity [m/s] of the sensor in the world frame; `rate_radps` in the foot frame, without bias."""
-    rate = rotated(matrix(quat_xyzw), rate_radps)
+    rate = rotated(rows(quat_xyzw), rate_radps)
     return height_m * rate[1], -height_m * rate[0], 0.0
 
 

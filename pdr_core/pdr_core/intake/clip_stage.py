@@ -5,7 +5,7 @@ import numpy as np
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.intake.clip_repair import CONTEXT, ClipLimits, Waiting, repair
 from pdr_core.params import IntakeParams
-from pdr_core.records import Flags, ImuBlock, joined, length, part
+from pdr_core.records import NO_SAMPLES, Flags, ImuBlock, joined, length, part
 
 
 class ClipRepair:
@@ -13,10 +13,9 @@ class ClipRepair:
 
     def __init__(self, params: IntakeParams) -> None:
         self._limits = ClipLimits(params.clip_smallest_radps, round(params.clip_longest_s * NANOSECONDS))
-        empty = np.zeros((0, 3))
-        self._samples = ImuBlock(np.zeros(0, np.int64), empty, empty, np.zeros(0), np.zeros(0))
+        self._samples, rates = NO_SAMPLES, NO_SAMPLES.gyro_radps
         self._waiting = Waiting(
-            self._samples.stamp_ns, empty, empty, np.zeros(0, np.bool_), np.zeros(3, np.int64), np.zeros((3, 2))
+            NO_SAMPLES.stamp_ns, rates, rates, np.zeros(0, np.bool_), np.zeros(3, np.int64), np.zeros((3, 2))
         )
         self._given = 0  # samples of `_samples` that were given out
 
@@ -26,7 +25,7 @@ class ClipRepair:
 
     def finish(self) -> tuple[ImuBlock, Flags]:
         """Return the samples that still wait, as they are."""
-        return self._decided(part(self._samples, 0, 0), final=True)
+        return self._decided(NO_SAMPLES, final=True)
 
     def _decided(self, block: ImuBlock, final: bool) -> tuple[ImuBlock, Flags]:
         samples, old = joined([self._samples, block]), self._waiting

@@ -6,12 +6,12 @@ from pdr_core.conventions import STANDARD_GRAVITY_MPS2
 from pdr_core.intake.clip_stage import ClipRepair
 from pdr_core.intake.noise import channels, sample_noise
 from pdr_core.intake.plausibility import Plausibility, plausible
-from pdr_core.intake.stamp_policy import NOTHING, StampPolicy
+from pdr_core.intake.stamp_policy import StampPolicy
 from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
-from pdr_core.records import Flags, ImuBlock, Level, Notice, Stamps, joined, length
+from pdr_core.records import NO_SAMPLES, Flags, ImuBlock, Level, Notice, Stamps, joined, length
 
 ACCEL_UNITS = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2}
 GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
@@ -28,7 +28,7 @@ class Ingestion:
         self._stamps = StampPolicy(params)
         self._clip_repair = ClipRepair(params)
         self._gyro, self._accel = channels(params)
-        self._last = NOTHING
+        self._last = NO_SAMPLES
         self._plausibility = Plausibility()
         self._tally = Tally()
         self._R_foot_from_sensor = quaternion.matrix(

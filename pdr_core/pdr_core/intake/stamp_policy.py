@@ -8,9 +8,7 @@ from pdr_core.intake.stamp_rules import StampLimits, judged
 from pdr_core.intake.stamp_state import NOBODY, fresh_state
 from pdr_core.notices import Tally
 from pdr_core.params import IntakeParams
-from pdr_core.records import ImuBlock, Notice, Stamps, joined, length
-
-NOTHING = ImuBlock(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
+from pdr_core.records import NO_SAMPLES, ImuBlock, Notice, Stamps, joined, length
 
 
 class StampPolicy:
@@ -24,7 +22,7 @@ class StampPolicy:
         period_ns = round(NANOSECONDS / rate_hz) if rate_hz > 0.0 else 0
         self._limits = StampLimits(round(params.restart_s * NANOSECONDS), period_ns)
         self._state = fresh_state()
-        self._waiting = NOTHING
+        self._waiting = NO_SAMPLES
         self._tally = Tally()
 
     def run(self, block: ImuBlock) -> ImuBlock:
@@ -33,7 +31,7 @@ class StampPolicy:
 
     def finish(self) -> ImuBlock:
         """Return the sample that still waits for a later one, if one does."""
-        return self._judge(NOTHING, final=True)
+        return self._judge(NO_SAMPLES, final=True)
 
     @property
     def notices(self) -> list[Notice]:
@@ -45,7 +43,7 @@ class StampPolicy:
         fault, order, stamp_ns = judged(block, self._limits, self._state, final)
         self._tell(fault, block.stamp_ns)
         w, passed, straight = (self._state[name] for name in ("waiting", "passed", "straight"))
-        self._waiting = NOTHING if w == NOBODY else ImuBlock._make(column[w : w + 1].copy() for column in block)
+        self._waiting = NO_SAMPLES if w == NOBODY else ImuBlock._make(column[w : w + 1].copy() for column in block)
         if not (straight and passed == length(block)):
             block = ImuBlock._make(column[order[:passed]] for column in block)
         return block._replace(stamp_ns=stamp_ns[:passed])

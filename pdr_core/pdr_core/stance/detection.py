@@ -6,7 +6,7 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, gravity_mps2
 from pdr_core.params import PlaceParams, StanceParams
-from pdr_core.records import Floats, ImuBlock, StanceBlock, joined, length, part
+from pdr_core.records import NO_SAMPLES, Floats, ImuBlock, StanceBlock, joined, length, part
 from pdr_core.stance import glrt, relative_threshold, rest
 
 
@@ -62,7 +62,7 @@ class StanceDetection:
 
     def finish(self) -> StanceBlock:
         """Return the samples that still wait for later ones, judged by what there is."""
-        return self._judge(part(self._samples, 0, 0), final=True)
+        return self._judge(NO_SAMPLES, final=True)
 
     def _judge(self, imu: ImuBlock, final: bool) -> StanceBlock:
         samples, first = joined([self._samples, imu]), self._unjudged
@@ -99,9 +99,7 @@ class StanceDetection:
 
     def _forget(self) -> None:
         """Start anew: no sample waits for a verdict, no swing is remembered."""
-        none, empty = np.zeros(0), np.zeros((0, 3))
-        self._samples = ImuBlock(np.zeros(0, np.int64), empty, empty, none, none)
-        self._unjudged = 0
+        self._samples, self._unjudged = NO_SAMPLES, 0
         self._threshold = relative_threshold.fresh_threshold()
 
 
