@@ -47,7 +47,7 @@ def live_run(
     """
     make_run_folder(out)
     params = for_one_run(params)
-    warm_up()  # so that the nodes need not compile, each for itself
+    warm_up(params)  # so that the nodes need not compile, each for itself
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", domain)
     record(params, out, namespace, terminal)

@@ -46,7 +46,7 @@ def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -
     """Estimate what a driver publishes until Ctrl-C, the duration or our own driver ends it; fill the folder `out`."""
     make_run_folder(out)
     params = replace(params, node=replace(params.node, input_reliable=True, autostart=True))  # the relay is ours
-    warm_up()
+    warm_up(params)
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", None)
     record(params, job, out, terminal)

@@ -23,7 +23,7 @@ def run_recording(
     """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several."""
     chosen = chosen_sensors(session, sensor)
     check_output(out, session)
-    warm_up()
+    warm_up(params)
     if len(chosen) == 1:
         return run_sensor(session, chosen[0], params, out, terminal)
     results = {s.name: run_sensor(session, s, params, out / s.name if out else None, terminal) for s in chosen}

@@ -6,11 +6,13 @@ from pdr_core.params import Params
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import ImuBlock
 
+DEFAULTS = Params()
 
-def warm_up() -> None:
-    """Run the pipeline over one sample: every compiled function is compiled, or loaded from the cache."""
+
+def warm_up(params: Params = DEFAULTS) -> None:
+    """Run the pipeline over one sample: every function that it needs is compiled, or loaded from the cache."""
     one, gravity = np.zeros(1), np.array([[0.0, 0.0, 9.81]])
-    pipeline = FootInertial(Params())
+    pipeline = FootInertial(params)
     pipeline.run(ImuBlock(np.zeros(1, np.int64), np.zeros((1, 3)), gravity, one, one))
     pipeline.finish()
 

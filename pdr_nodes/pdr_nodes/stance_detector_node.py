@@ -20,7 +20,7 @@ class StanceDetectorNode(ManagedNode):
 
     def set_up(self, params: Params) -> None:
         """Take samples, give verdicts; the last ones when no sample comes."""
-        warm_up()
+        warm_up(params)
         self._stance = StanceDetection(params.stance, params.place, params.detectors)
         self._frame_id = params.node.foot_frame
         self._verdicts = self.output(StanceImu, "stance")

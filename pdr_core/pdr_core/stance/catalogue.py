@@ -15,7 +15,6 @@ from pdr_core.stance import (
     three_conditions,
 )
 from pdr_core.stance.gait_phases import GaitPhases
-from pdr_core.stance.kmeans_gate import KmeansGate
 from pdr_core.stance.time_gate import TimeGate
 
 
@@ -70,6 +69,13 @@ def detectors(stance: StanceParams, own: DetectorParams, gravity_mps2: float) ->
     }
 
 
-def time_gates(own: DetectorParams, phases_s: Floats | None) -> dict[str, TimeGate | None]:
-    """Return every time gate, fresh, under the name by which `stance.time_gate` picks it; None lets all pass."""
-    return {"none": None, "gait_phases": GaitPhases(own), "kmeans": KmeansGate(own, phases_s)}
+def time_gates(own: DetectorParams, phases_s: Floats | None) -> dict[str, Callable[[], TimeGate | None]]:
+    """Return what makes each time gate, under the name by which `stance.time_gate` picks it; None lets all pass."""
+    return {"none": lambda: None, "gait_phases": lambda: GaitPhases(own), "kmeans": lambda: kmeans(own, phases_s)}
+
+
+def kmeans(own: DetectorParams, phases_s: Floats | None) -> TimeGate:
+    """Return Qiu's gate. scipy's clustering takes a third of a second to load, so only here."""
+    from pdr_core.stance.kmeans_gate import KmeansGate
+
+    return KmeansGate(own, phases_s)

@@ -33,7 +33,7 @@ class StanceDetection:
         family = catalogue.detectors(params, detectors, gravity)
         self._stillness, self._detector = family["adaptive"], family[params.detector]
         self._half_window_ns = max(self._stillness.half_window_ns, self._detector.half_window_ns)
-        self._fresh_gate = lambda: catalogue.time_gates(detectors, phases_s)[params.time_gate]
+        self._fresh_gate = catalogue.time_gates(detectors, phases_s)[params.time_gate]
         self._threshold_limits = relative_threshold.ThresholdLimits(
             nanoseconds(params.memory_s),
             params.relative_share,

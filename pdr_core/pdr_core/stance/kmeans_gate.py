@@ -14,6 +14,7 @@ becomes the "true" cluster and all steps are dropped. So here
 from typing import NamedTuple
 
 import numpy as np
+from scipy.cluster.vq import kmeans2
 
 from pdr_core.conventions import NANOSECONDS, NO_STAMP, nanoseconds
 from pdr_core.maths.compiled import compiled
@@ -91,8 +92,6 @@ def shortest_true_s(phases_s: Floats) -> float:
     ends = np.array([[logs.min()], [logs.max()]])
     if ends[1, 0] - ends[0, 0] < np.log(APART):
         return 0.0
-    from scipy.cluster.vq import kmeans2  # takes a while to load, and few need it
-
     centres, cluster = kmeans2(logs[:, None], ends, minit="matrix")
     if centres[1, 0] - centres[0, 0] < np.log(APART):
         return 0.0
