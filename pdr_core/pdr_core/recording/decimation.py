@@ -1,9 +1,9 @@
 """Lowers the rate of samples as a sensor does it: what the lower rate cannot show is filtered out before.
 
-To keep every k-th sample and drop the rest folds each vibration above half the new rate down into the motion (aliasing):
-the shock of a heel then looks like a push. So each kept sample becomes the mean of those around it, weighted by a
-low-pass filter: a sinc in a Hamming window (Oppenheim and Schafer, Discrete-time signal processing, section 7.5). Its
-weights are symmetric. So it delays nothing, and the value belongs to the stamp that the kept sample has.
+To keep every k-th sample and drop the rest folds each vibration above half the new rate down into the motion
+(aliasing): the shock of a heel then looks like a push. So each kept sample becomes the weighted mean of those around
+it, a low-pass filter: a sinc in a Hamming window (Oppenheim and Schafer, Discrete-time signal processing, section 7.5).
+Its weights are symmetric. So it delays nothing, and the value belongs to the stamp that the kept sample has.
 
 Near an end of the recording, a gap, a value that is no number, or a gyro that goes on or off, the filter shrinks on
 both sides alike, until it ends there. So it never mixes what does not belong together, and a rate that was not measured
@@ -29,7 +29,7 @@ LONGEST = 4096  # samples to either side, whatever the rate
 
 @cache
 def weights(keep_every: int) -> Floats:
-    """Return the filter for every k-th sample, (2 n + 1,): the sum is 1, and the frequency response that of a sensor."""
+    """Return the filter for one sample in `keep_every`, (2 n + 1,); the sum is 1."""
     reach = reached(keep_every)
     away = np.arange(-reach, reach + 1) / keep_every
     shape = np.sinc(SHARE * away) * np.hamming(2 * reach + 1)
@@ -43,7 +43,7 @@ def reached(keep_every: int) -> int:
 
 def thinned(samples: ImuBlock, start: int, stop: int, keep_every: int) -> ImuBlock:
     """Return the samples start:stop:keep_every, filtered by those around them, also before start and from stop on."""
-    kept = ImuBlock(*(column[start:stop:keep_every].copy() for column in samples))
+    kept = ImuBlock._make(column[start:stop:keep_every].copy() for column in samples)
     if keep_every > 1:
         smooth(samples, start, keep_every, weights(keep_every), kept)
     return kept

@@ -1,5 +1,7 @@
 """A lower rate shows what it can show, and nothing of what it cannot."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -127,7 +129,7 @@ def test_a_burst_on_arrival_is_filtered_like_even_samples():
 def test_a_stream_cut_anywhere_gives_the_same_bits(k, cuts):
     block, decimation = noisy(150), Decimation(k)
     edges = [0, *sorted(cuts), 150]
-    pieces = [decimation.run(part(block, a, b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    pieces = [decimation.run(part(block, a, b)) for a, b in pairwise(edges)]
     assert same(joined([*pieces, decimation.finish()]), whole(block, k))
 
 
