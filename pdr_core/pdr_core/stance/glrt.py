@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from pdr_core.maths.centred_window import centred_windows
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import norm
+from pdr_core.maths.vector import added, difference, norm, row, scaled
 from pdr_core.records import Floats, ImuBlock
 
 
@@ -22,14 +23,10 @@ def statistics(
     The window is centred on the sample: all samples whose stamps differ by at most `half_window_ns`. Gui prints a
     window that begins at the sample; centring it puts the verdict where it belongs. Standing still makes T small.
     """
-    out = np.empty(max(0, stop - start))
-    first, last = 0, start
-    for i in range(start, stop):
-        while imu.stamp_ns[i] - imu.stamp_ns[first] > half_window_ns:
-            first += 1
-        while last < imu.stamp_ns.shape[0] and imu.stamp_ns[last] - imu.stamp_ns[i] <= half_window_ns:
-            last += 1
-        out[i - start] = window_statistic(imu, first, last, gravity_mps2, accel_sd_mps2, gyro_sd_radps)
+    firsts, lasts = centred_windows(imu.stamp_ns, start, stop, half_window_ns)
+    out = np.empty(firsts.shape[0])
+    for i in range(firsts.shape[0]):
+        out[i] = window_statistic(imu, firsts[i], lasts[i], gravity_mps2, accel_sd_mps2, gyro_sd_radps)
     return out
 
 
@@ -38,15 +35,15 @@ def window_statistic(
     imu: ImuBlock, first: int, last: int, gravity_mps2: float, accel_sd_mps2: float, gyro_sd_radps: float
 ) -> float:
     """Return T over the samples first:last: how far they are from gravity along the mean direction, and from rest."""
-    mean = np.zeros(3)
+    mean = (0.0, 0.0, 0.0)
     for k in range(first, last):
-        mean += imu.accel_mps2[k]
+        mean = added(mean, row(imu.accel_mps2, k))
         if imu.gyro_sd_radps[k] < 0.0:
             return np.inf
     length = norm(mean)
-    expected = mean * (gravity_mps2 / length) if length > 0.0 else mean
+    expected = scaled(gravity_mps2 / length, mean) if length > 0.0 else mean
     total = 0.0
     for k in range(first, last):
-        total += (norm(imu.accel_mps2[k] - expected) / accel_sd_mps2) ** 2
-        total += (norm(imu.gyro_radps[k]) / gyro_sd_radps) ** 2
+        total += (norm(difference(row(imu.accel_mps2, k), expected)) / accel_sd_mps2) ** 2
+        total += (norm(row(imu.gyro_radps, k)) / gyro_sd_radps) ** 2
     return total / (last - first)
