@@ -4,7 +4,7 @@ points: the value at the stamp. Over a motion from rest to rest trapezia add up 
 off by dt^2 / 12 times the change of the derivative from end to end (Euler and Maclaurin). To take rate and force for
 straight lines between the samples, sculling and all, is worse. But in the midst of the motion the attitude by
 trapezia is ahead of the true one by dt^2 / 12 w', in the foot frame. So the force is turned back by that. With both,
-and `mean_rate`, the errors of attitude and speed are of fourth order.
+and `mean_rate`, the errors of attitude and speed from rest to rest are of fourth order.
 
 means: what a sensor gives that integrates inside, at a high rate: the turn and the speed of the interval, over its
 length. Nothing is left to be added.
