@@ -4,10 +4,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.words import counted, duration
 from pdr_core.recording import Sensor, Session
+from pdr_core.recording.decimation import decimated, kept_of, rate_of_hz
 from pdr_core.recording.export import carries_truth, write_recording
 from pdr_core.records import ImuBlock, length
 
@@ -22,6 +24,16 @@ def save(
     for notice in session.notices:
         terminal.say(f"Warning: {notice.text.rstrip('.')}.")
     print(f"Written to {output}: {'; '.join(count.words(output) for count in counts)}.")
+
+
+def slower(sensor: Sensor, rate_hz: float, terminal: Terminal) -> Sensor:
+    """Return the sensor at about this lower rate, and say at which."""
+    native_hz = rate_of_hz(sensor)
+    keep_every = kept_of(native_hz, rate_hz)
+    if keep_every == 1:
+        raise Problem(f"{sensor.name} has {native_hz:.1f} Hz: give a --rate of at most half of it, or none")
+    terminal.say(f"{sensor.name}: {native_hz / keep_every:.1f} of {native_hz:.1f} Hz, one sample in {keep_every}.")
+    return decimated(sensor, keep_every)
 
 
 class Count:

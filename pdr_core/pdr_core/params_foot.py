@@ -112,8 +112,8 @@ class FilterParams:
 
     samples: str = parameter(
         "points",
-        "a sample is the value at its stamp, or the mean over the interval since the one before",
-        choices=("points", "means"),
+        "a sample is the value at its stamp, or what the sensor integrated (means) or averaged since the one before",
+        choices=("points", "means", "averages"),
     )
     alignment_s: float = parameter(
         0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"

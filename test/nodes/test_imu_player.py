@@ -74,3 +74,17 @@ def test_a_rate_holds_from_its_stamp_on(player):
     assert player.set_sample_rate(25.0, at(80)) == (pytest.approx(25.0), at(80))
     gaps = np.diff(rest(player).stamp_ns) // STEP_NS
     assert gaps.tolist() == [1] * 79 + [4] * 29
+
+
+def test_a_lower_rate_does_not_show_a_vibration_as_motion():
+    shaking = still(SAMPLES / 100.0, BEGIN_NS)
+    shaking.accel_mps2[::4, 0] += 8.0  # 25 Hz: every 4th sample alone sees a steady push
+    player = Player(Source("test", iter([shaking]), None), SETTLING_S)
+    player.take()
+    player.set_sample_rate(25.0, at(80))
+    taken = rest(player)
+    slow = taken.accel_mps2[taken.stamp_ns > at(84), 0][:-5]
+    assert len(slow) > 20
+    np.testing.assert_allclose(slow, 2.0, atol=0.05)  # the mean push
+    fast = taken.stamp_ns < at(80)
+    np.testing.assert_array_equal(taken.accel_mps2[fast], shaking.accel_mps2[1:80])

@@ -21,7 +21,7 @@ def tracked(yaw_rad, samples):
     return joined([o.nav for o in outputs]), [step for o in outputs for step in o.steps]
 
 
-STRAIGHT = {samples: tracked(0.0, samples) for samples in ("points", "means")}
+STRAIGHT = {samples: tracked(0.0, samples) for samples in ("points", "means", "averages")}
 
 
 @pytest.mark.parametrize("samples", STRAIGHT)

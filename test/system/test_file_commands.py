@@ -65,6 +65,16 @@ def test_a_users_csv_runs_alike_before_and_after(tmp_path):
     assert before.read_bytes() == after.read_bytes()
 
 
+def test_a_recording_is_written_at_a_lower_rate(folder, tmp_path):
+    answer = done("convert", folder / "walk", tmp_path / "slow", "--rate", 45)
+    assert "imu: 50.0 of 100.0 Hz, one sample in 2.\n" in answer.stderr
+    whole, slow = (json.loads(done("run", walk, "--json").stdout) for walk in (folder / "walk", tmp_path / "slow"))
+    assert whole["samples"] == 2 * slow["samples"]
+    assert slow["strides"] == whole["strides"]
+    assert slow["truth"]["ate2_m"] < 0.02
+    check_refused(pdr("convert", folder / "walk", tmp_path / "no", "--rate", 90), "imu has 100.0 Hz: give a --rate of")
+
+
 def test_another_detector_and_a_gate_are_named_on_the_command_line(folder, tmp_path):
     for name, gate in (("mbgtd", "kmeans"), ("three_conditions", "gait_phases")):
         done("run", folder / "walk", "--detector", name, "--gate", gate, "--out", tmp_path / name)

@@ -11,12 +11,14 @@ from scipy.spatial.transform import Rotation
 
 from pdr_core.conventions import NANOSECONDS, gravity_mps2
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import row
 from pdr_core.params import PlaceParams, SimulationParams
 from pdr_core.records import Floats, ImuBlock
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.simulation.gait import WALK, Stride
 from pdr_core.simulation.gui_motion import STANCE_S, STEP_LENGTH_M, SWING_S
-from pdr_core.strapdown.mechanisation import advance, mean_rate
+from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.samples import POINTS, between
 
 RATES_HZ = (50.0, 100.0, 200.0, 400.0, 1000.0)
 WALKED_S = 60.0  # beside the rests
@@ -74,6 +76,7 @@ def integrate(imu: ImuBlock, gravity: float, position_m: Floats, velocity_mps: F
     for i in range(1, imu.stamp_ns.shape[0]):
         position_m[i], velocity_mps[i], quat_xyzw[i] = position_m[i - 1], velocity_mps[i - 1], quat_xyzw[i - 1]
         dt_s = (imu.stamp_ns[i] - imu.stamp_ns[i - 1]) / NANOSECONDS
-        rate_radps = mean_rate(imu.gyro_radps[i - 1], imu.gyro_radps[i], dt_s)
-        before, after = imu.accel_mps2[i - 1], imu.accel_mps2[i]
-        advance(position_m[i], velocity_mps[i], quat_xyzw[i], rate_radps, before, after, dt_s, gravity)
+        last_rate, rate = row(imu.gyro_radps, i - 1), row(imu.gyro_radps, i)
+        last_force, force = row(imu.accel_mps2, i - 1), row(imu.accel_mps2, i)
+        turn, before, after = between(POINTS, last_rate, rate, last_force, force, dt_s)
+        advance(position_m[i], velocity_mps[i], quat_xyzw[i], turn, before, after, dt_s, gravity)

@@ -6,6 +6,7 @@ from pdr_core.conventions import NANOSECONDS, gravity_mps2
 from pdr_core.eskf.process import ProcessNoise
 from pdr_core.eskf.settings import Settings
 from pdr_core.params import FilterParams, PlaceParams
+from pdr_core.strapdown.samples import KINDS
 
 
 def settings(params: FilterParams, place: PlaceParams) -> Settings:
@@ -18,7 +19,7 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         process=ProcessNoise(
             p.accel_bias_walk, p.gyro_bias_walk, p.bias_correlation_s, p.gap_speed_mps, p.gap_rate_radps
         ),
-        means=p.samples == "means",
+        samples=KINDS[p.samples],
         gravity_mps2=gravity_mps2(np.radians(place.latitude_deg), place.height_m),
         gravity_from_rest=p.gravity_source == "rest",
         alignment_ns=round(p.alignment_s * NANOSECONDS),

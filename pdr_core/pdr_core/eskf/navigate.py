@@ -12,9 +12,10 @@ from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
 from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Triple, Vector, difference, row
+from pdr_core.maths.vector import Triple, difference, row
 from pdr_core.records import NavBlock, StanceBlock
-from pdr_core.strapdown.mechanisation import advance, mean_rate
+from pdr_core.strapdown.mechanisation import advance
+from pdr_core.strapdown.samples import between
 
 UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
 
@@ -93,11 +94,12 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
         return
     state.coasting = False
-    force_before = difference(at_start(state.last_force_mps2, now.force_mps2, s.means), state.accel_bias_mps2)
-    force_after = difference(now.force_mps2, state.accel_bias_mps2)
-    rate = mean_rate(
-        difference(at_start(state.last_rate_radps, now.rate_radps, s.means), state.gyro_bias_radps),
+    rate, force_before, force_after = between(
+        s.samples,
+        difference(state.last_rate_radps, state.gyro_bias_radps),
         difference(now.rate_radps, state.gyro_bias_radps),
+        difference(state.last_force_mps2, state.accel_bias_mps2),
+        difference(now.force_mps2, state.accel_bias_mps2),
         dt_s,
     )
     held_m = state.position_m[0], state.position_m[1], state.position_m[2]
@@ -113,14 +115,6 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     if state.adrift:
         state.velocity_mps[:] = 0.0
         state.position_m[:] = held_m
-
-
-@compiled
-def at_start(before: Vector, now: Triple, means: bool) -> Triple:
-    """Return what the sensor felt at the start of the interval: a mean over the interval holds from its start on."""
-    if means:
-        return now
-    return before[0], before[1], before[2]
 
 
 @compiled

@@ -10,7 +10,7 @@ class Settings(NamedTuple):
     """Numbers only; times in nanoseconds where they are compared with stamps."""
 
     process: ProcessNoise
-    means: bool  # a sample is the mean over the interval before it
+    samples: int  # POINTS, MEANS or AVERAGES of strapdown/samples.py
     gravity_mps2: float
     gravity_from_rest: bool
     alignment_ns: int

@@ -95,10 +95,11 @@ class StanceDetection:
         return self._gate.run(judged, final) if self._gate else judged
 
     def _complete(self, samples: ImuBlock, final: bool) -> int:
-        """Return how many samples have a window that no later sample changes."""
+        """Return how many samples have a window that no later sample changes: the one after them belongs to it."""
         if final or not length(samples):
             return length(samples)
-        return int(np.searchsorted(samples.stamp_ns, samples.stamp_ns[-1] - self._half_window_ns, side="right"))
+        within = np.searchsorted(samples.stamp_ns, samples.stamp_ns[-1] - self._half_window_ns, side="right")
+        return min(int(within), length(samples) - 1)
 
     def _statistics(self, samples: ImuBlock, start: int, stop: int) -> tuple[Floats, Floats]:
         """Return the statistics of stillness and of the detector for the samples start:stop, once if they are one."""
@@ -110,6 +111,7 @@ class StanceDetection:
     def _keep_what_later_windows_need(self, samples: ImuBlock, judged: int) -> None:
         oldest_ns = samples.stamp_ns[judged:][:1] - self._half_window_ns
         first = int(np.searchsorted(samples.stamp_ns, oldest_ns[0])) if len(oldest_ns) else judged
+        first = max(0, min(first, judged - 1))  # the one before belongs to the window
         self._samples, self._unjudged = part(samples, first), judged - first
 
     def _forget(self) -> None:

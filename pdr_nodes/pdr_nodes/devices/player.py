@@ -1,13 +1,14 @@
 """Plays a source sample by sample, with a gyro that can be switched off and a rate that can be lowered."""
 
 from bisect import insort
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, NO_STAMP
-from pdr_core.records import ImuBlock, length, part
+from pdr_core.recording.decimation import ThinnedStream, kept_of
+from pdr_core.records import ImuBlock
 from pdr_nodes.devices.source import Source
 
 
@@ -19,10 +20,10 @@ class Change(NamedTuple):
 
 
 class Player:
-    """One sample ahead of what has been taken, so that a change of power or rate holds from a known stamp on."""
+    """Looks ahead of what has been taken, so that a change of power or rate holds from a known stamp on."""
 
     def __init__(self, source: Source, settling_s: float) -> None:
-        self._samples = samples(source)
+        self._samples = ThinnedStream(source.pieces)
         self.settling_s = settling_s
         self._changes: list[Change] = []  # still to come, the earliest first
         self._keep_every = 1
@@ -30,7 +31,11 @@ class Player:
         self._settled_ns = NO_STAMP
         self.taken = 0
         self.interval_s = 0.0
-        self.next: ImuBlock | None = next(self._samples, None)
+
+    @property
+    def next(self) -> ImuBlock | None:
+        """The sample that `take` returns next, as it was measured; None at the end."""
+        return self._samples.next
 
     @property
     def next_ns(self) -> int:
@@ -41,17 +46,14 @@ class Player:
 
     def take(self) -> ImuBlock:
         """Return the next sample as the device gives it now."""
-        sample, self.taken = self.next, self.taken + 1
-        if sample is None:
-            raise EOFError("the device has no more samples")
-        while self._changes and self._changes[0].at_ns <= sample.stamp_ns[0]:
+        now_ns, self.taken = self.next_ns, self.taken + 1
+        while self._changes and self._changes[0].at_ns <= now_ns:
             change = self._changes.pop(0)
             change.happen(change.at_ns)
-        for _ in range(self._keep_every):
-            self.next = next(self._samples, None)
+        sample = self._samples.take(self._keep_every)
         if self.next is not None and self.interval_s == 0.0:
-            self.interval_s = (self.next_ns - int(sample.stamp_ns[0])) / NANOSECONDS
-        measures = self._gyro_on and sample.stamp_ns[0] >= self._settled_ns
+            self.interval_s = (self.next_ns - now_ns) / NANOSECONDS
+        measures = self._gyro_on and now_ns >= self._settled_ns
         return sample if measures else without_gyro(sample)
 
     def set_gyro_power(self, on: bool, not_before_ns: int = NO_STAMP) -> int:
@@ -65,12 +67,12 @@ class Player:
         return self._plan(switch, not_before_ns)
 
     def set_sample_rate(self, rate_hz: float, not_before_ns: int = NO_STAMP) -> tuple[float, int]:
-        """Keep every k-th sample, as near to the rate as possible.
+        """Keep every k-th sample, filtered, as near to the rate as possible.
 
         Return the rate that this gives [Hz] and the stamp that it holds from [ns].
         """
         native_hz = 1.0 / self.interval_s
-        keep_every = max(1, round(native_hz / rate_hz))
+        keep_every = kept_of(native_hz, rate_hz)
 
         def thin(_at_ns: int) -> None:
             self._keep_every = keep_every
@@ -82,13 +84,6 @@ class Player:
         at_ns = max(not_before_ns, self.next_ns)
         insort(self._changes, Change(at_ns, happen), key=lambda change: change.at_ns)
         return at_ns
-
-
-def samples(source: Source) -> Iterator[ImuBlock]:
-    """Yield the samples one by one."""
-    for piece in source.pieces:
-        for i in range(length(piece)):
-            yield part(piece, i, i + 1)
 
 
 def without_gyro(sample: ImuBlock) -> ImuBlock:

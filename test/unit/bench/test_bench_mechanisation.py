@@ -23,10 +23,10 @@ def test_the_error_falls_with_the_rate_but_never_to_nothing(motion, what):
     assert errors[-1] > 0.0
 
 
-def test_the_mechanisation_is_of_second_order_in_the_interval():
+def test_the_attitude_lags_by_second_order_and_the_track_does_not():
     slow, fast = (e for e in ERRORS if e.motion == "smooth" and e.rate_hz in (100.0, 1000.0))
     assert slow.attitude_rad / fast.attitude_rad == pytest.approx(100.0, rel=0.05)
-    assert slow.position_m / fast.position_m == pytest.approx(100.0, rel=0.1)
+    assert slow.position_m / fast.position_m > 300.0
 
 
 def test_a_biased_sensor_is_seen():

@@ -69,7 +69,7 @@ def test_one_mad_sample_does_not_lose_the_rest_of_the_walk(column, value):
     assert np.linalg.norm(world_velocity(nav)[ends], axis=1).max() < 0.01
 
 
-@pytest.mark.parametrize("samples", ["points", "means"])
+@pytest.mark.parametrize("samples", ["points", "means", "averages"])
 @pytest.mark.parametrize("walk", ["straight", "stairs", "mixed"])
 @pytest.mark.parametrize("noise", [1.0, 0.01])
 def test_every_covariance_of_a_walk_is_symmetric_and_positive(walk, samples, noise):

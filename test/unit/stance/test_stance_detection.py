@@ -51,6 +51,13 @@ def test_what_comes_after_the_latency_does_not_change_a_verdict():
         assert same(early, part(whole, 0, length(early)))
 
 
+@pytest.mark.parametrize("window_s", [0.0, 0.01])
+def test_a_window_shorter_than_an_interval_gives_the_same_sample_by_sample(window_s):
+    d = detection(window_s=window_s)
+    pieces = [d.run(part(WALK.imu, i, i + 1)) for i in range(length(WALK.imu))]
+    assert same(joined([*pieces, d.finish()]), judged_whole(WALK.imu, window_s=window_s))
+
+
 def test_all_samples_come_out_once_and_in_order():
     assert same(judged_whole(WALK.imu), judged_whole(WALK.imu))
     np.testing.assert_array_equal(judged_whole(WALK.imu).imu.stamp_ns, WALK.imu.stamp_ns)

@@ -71,6 +71,7 @@ def test_the_statistic_is_its_formula_over_a_centred_window(name, seed, half_ms)
     expected = []
     for i in range(N):
         window = np.abs(imu.stamp_ns - imu.stamp_ns[i]) <= half_ms * MS
+        window[max(0, i - 1) : i + 2] = True
         expected.append(formula(imu.accel_mps2[i], imu.accel_mps2[window], imu.gyro_radps[window]))
     found = detector.statistics(imu, 0, N, half_ms * MS, *numbers)
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12)

@@ -17,6 +17,7 @@ def random_block(seed, n=60):
 
 def restated(imu, i, half_ns):
     window = np.abs(imu.stamp_ns - imu.stamp_ns[i]) <= half_ns
+    window[max(0, i - 1) : i + 2] = True
     force, rate = imu.accel_mps2[window], imu.gyro_radps[window]
     up = force.mean(0) / np.linalg.norm(force.mean(0))
     terms = ((force - G * up) ** 2).sum(1) / ACCEL_SD**2 + (rate**2).sum(1) / GYRO_SD**2

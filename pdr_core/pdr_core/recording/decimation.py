@@ -1,0 +1,184 @@
+"""Lowers the rate of samples as a sensor does it: what the lower rate cannot show is filtered out before.
+
+To keep every k-th sample and drop the rest folds each vibration above half the new rate down into the motion
+(aliasing): the shock of a heel then looks like a push. So each kept sample becomes the weighted mean of those around
+it, a low-pass filter: a sinc in a Hamming window (Oppenheim and Schafer, Discrete-time signal processing, section 7.5).
+Its weights are symmetric. So it delays nothing, and the value belongs to the stamp that the kept sample has.
+
+Near an end of the recording, a gap, a value that is no number, or a gyro that goes on or off, the filter shrinks on
+both sides alike, until it ends there. So it never mixes what does not belong together, and a rate that was not measured
+stays so.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from pdr_core.conventions import GAP_NS, NANOSECONDS
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import row, within
+from pdr_core.recording.session import Sensor
+from pdr_core.records import NO_SAMPLES, Floats, ImuBlock, joined, length, part
+
+SHARE = 0.9  # of half the new rate is the frequency that the filter halves
+REACH = 4  # intervals of the new rate to either side
+LONGEST = 4096  # samples to either side, whatever the rate
+
+
+@cache
+def weights(keep_every: int) -> Floats:
+    """Return the filter for one sample in `keep_every`, (2 n + 1,); the sum is 1."""
+    reach = reached(keep_every)
+    away = np.arange(-reach, reach + 1) / keep_every
+    shape = np.sinc(SHARE * away) * np.hamming(2 * reach + 1)
+    return shape / shape.sum()
+
+
+def reached(keep_every: int) -> int:
+    """Return how many samples to either side count for one that is kept."""
+    return min(REACH * keep_every, LONGEST) if keep_every > 1 else 0
+
+
+def thinned(samples: ImuBlock, start: int, stop: int, keep_every: int) -> ImuBlock:
+    """Return the samples start:stop:keep_every, filtered by those around them, also before start and from stop on."""
+    kept = ImuBlock._make(column[start:stop:keep_every].copy() for column in samples)
+    if keep_every > 1:
+        smooth(samples, start, keep_every, weights(keep_every), kept)
+    return kept
+
+
+@compiled
+def smooth(samples: ImuBlock, start: int, keep_every: int, shape: Floats, kept: ImuBlock) -> None:
+    """Replace the values of `kept`, which are those of the samples start, start + keep_every, ..."""
+    for n in range(kept.stamp_ns.shape[0]):
+        i = start + n * keep_every
+        reach = reach_of(samples, i, shape.shape[0] // 2)
+        middle = shape.shape[0] // 2
+        total = shape[middle - reach : middle + reach + 1].sum()
+        kept.gyro_radps[n], kept.accel_mps2[n] = 0.0, 0.0
+        gyro_variance, accel_variance = 0.0, 0.0
+        for k in range(-reach, reach + 1):
+            share = shape[middle + k] / total
+            kept.gyro_radps[n] += share * samples.gyro_radps[i + k]
+            kept.accel_mps2[n] += share * samples.accel_mps2[i + k]
+            gyro_variance += (share * samples.gyro_sd_radps[i + k]) ** 2
+            accel_variance += (share * samples.accel_sd_mps2[i + k]) ** 2
+        if kept.gyro_sd_radps[n] >= 0.0:
+            kept.gyro_sd_radps[n] = np.sqrt(gyro_variance)
+        kept.accel_sd_mps2[n] = np.sqrt(accel_variance)
+
+
+@compiled
+def reach_of(samples: ImuBlock, i: int, longest: int) -> int:
+    """Return how many samples on either side of sample i belong together with it."""
+    for reach in range(longest):
+        first, last = i - reach - 1, i + reach + 1
+        if first < 0 or last >= samples.stamp_ns.shape[0]:
+            return reach
+        if not (together(samples, first) and together(samples, last - 1)):
+            return reach
+    return longest
+
+
+@compiled
+def together(samples: ImuBlock, i: int) -> bool:
+    """Return whether a sample and the next are numbers, and neither a gap nor a switch of the gyro is between them.
+
+    Stamps that repeat or change places are those of a burst on arrival: the samples themselves are even.
+    """
+    apart_ns = abs(samples.stamp_ns[i + 1] - samples.stamp_ns[i])
+    switched = (samples.gyro_sd_radps[i] < 0.0) != (samples.gyro_sd_radps[i + 1] < 0.0)
+    return apart_ns <= GAP_NS and not switched and finite(samples, i) and finite(samples, i + 1)
+
+
+@compiled
+def finite(samples: ImuBlock, i: int) -> bool:
+    """Return whether all values of a sample are numbers."""
+    return within(row(samples.gyro_radps, i), np.inf) and within(row(samples.accel_mps2, i), np.inf)
+
+
+class Decimation:
+    """Every k-th sample of a stream, from the first one on, however the stream is cut."""
+
+    def __init__(self, keep_every: int) -> None:
+        self._keep_every = keep_every
+        self._samples = NO_SAMPLES
+        self._next = 0  # index of the next one to keep
+
+    def run(self, block: ImuBlock) -> ImuBlock:
+        """Return the samples that are kept of these and earlier ones, as far as what they need is there."""
+        self._samples = joined([self._samples, block])
+        return self._thinned(length(self._samples) - reached(self._keep_every))
+
+    def finish(self) -> ImuBlock:
+        """Return those that still wait for later ones."""
+        return self._thinned(length(self._samples))
+
+    def _thinned(self, stop: int) -> ImuBlock:
+        kept = thinned(self._samples, self._next, max(stop, self._next), self._keep_every)
+        after = self._next + length(kept) * self._keep_every
+        first = min(max(0, after - reached(self._keep_every)), length(self._samples))
+        self._samples, self._next = part(self._samples, first), after - first
+        return kept
+
+
+class ThinnedStream:
+    """A stream that is taken sample by sample, at a rate that may be lowered at any of them."""
+
+    def __init__(self, pieces: Iterator[ImuBlock]) -> None:
+        self._pieces = pieces
+        self._samples = NO_SAMPLES
+        self._next = 0
+        self._look_ahead(0)
+
+    @property
+    def next(self) -> ImuBlock | None:
+        """The sample that `take` returns next, as it was measured; None at the end."""
+        there = self._next < length(self._samples)
+        return part(self._samples, self._next, self._next + 1) if there else None
+
+    def take(self, keep_every: int) -> ImuBlock:
+        """Return the next sample, filtered for one of so many that is kept, and go on to the one after it."""
+        self._look_ahead(reached(keep_every))
+        sample = thinned(self._samples, self._next, self._next + 1, keep_every)
+        self._next += keep_every
+        self._look_ahead(0)
+        return sample
+
+    def _look_ahead(self, samples: int) -> None:
+        """Read on until so many samples after the next one are there, or the stream ends; keep the last ones."""
+        while length(self._samples) <= self._next + samples and (piece := next(self._pieces, None)) is not None:
+            first = min(max(0, self._next - LONGEST), length(self._samples))
+            self._samples, self._next = joined([part(self._samples, first), piece]), self._next - first
+
+
+def rate_of_hz(sensor: Sensor) -> float:
+    """Return the usual rate of a sensor; 0 where it has no two samples in a row."""
+    steps_ns = np.diff(next(sensor.pieces(), NO_SAMPLES).stamp_ns)
+    steps_ns = steps_ns[steps_ns > 0]
+    return NANOSECONDS / float(np.median(steps_ns)) if len(steps_ns) else 0.0
+
+
+def kept_of(native_hz: float, rate_hz: float) -> int:
+    """Return k, 1 or more, so that every k-th sample comes as near to the rate as possible."""
+    return max(1, round(native_hz / rate_hz))
+
+
+def decimated(sensor: Sensor, keep_every: int) -> Sensor:
+    """Return the sensor as if it had measured at a lower rate; its truth stays as it is."""
+
+    def read(max_samples: int) -> Iterator[ImuBlock]:
+        decimation = Decimation(keep_every)
+        for piece in sensor.pieces(max_samples):
+            yield from nonempty(decimation.run(piece))
+        yield from nonempty(decimation.finish())
+
+    return replace(sensor, read=read)
+
+
+def nonempty(block: ImuBlock) -> Iterator[ImuBlock]:
+    """Yield a block if it holds samples."""
+    if length(block):
+        yield block
