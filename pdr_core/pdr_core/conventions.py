@@ -23,6 +23,11 @@ def gravity_mps2(latitude_rad: float, height_m: float = 0.0) -> float:
     return surface - (3.0877e-6 - 4.3e-9 * sin2) * height_m + 7.2e-13 * height_m**2
 
 
+def nanoseconds(time_s: float) -> int:
+    """Return a time [s] in whole nanoseconds."""
+    return round(time_s * NANOSECONDS)
+
+
 def stamp_ns_from_seconds(time_s: np.ndarray) -> np.ndarray:
     """Quantise times [s], shape (n,), to stamps [ns], int64 (n,): done once, where a recording is opened."""
     return np.rint(np.asarray(time_s, dtype=np.float64) * NANOSECONDS).astype(np.int64)

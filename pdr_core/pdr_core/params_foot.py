@@ -9,6 +9,25 @@ from pdr_core.parameter import parameter
 class StanceParams:
     """Stance detection: GLRT, relative threshold, soft rest test."""
 
+    detector: str = parameter(
+        "adaptive",
+        "what tells a standing foot; adaptive: the GLRT with a threshold relative to the last swing",
+        choices=(
+            "adaptive",
+            "glrt",
+            "angular_rate_energy",
+            "acceleration_moving_variance",
+            "acceleration_magnitude",
+            "mbgtd",
+            "three_conditions",
+        ),
+    )
+    time_gate: str = parameter(
+        "none",
+        "what tells stances from moments that only look like it, by their duration",
+        choices=("none", "gait_phases", "kmeans"),
+        source="Gui section 3, Qiu section 2.3",
+    )
     window_s: float = parameter(
         0.035, "length of the centred window of the GLRT", unit="s", bounds=(0.0, 1.0), source="Gui eq. 8, W"
     )

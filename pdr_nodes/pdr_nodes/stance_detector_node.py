@@ -16,12 +16,12 @@ class StanceDetectorNode(ManagedNode):
     """Hosts the stance stage. A verdict follows its sample by at most the latency that the node logs."""
 
     NAME = "stance_detector"
-    GROUPS = ("stance", "place", "node")
+    GROUPS = ("stance", "detectors", "place", "node")
 
     def set_up(self, params: Params) -> None:
         """Take samples, give verdicts; the last ones when no sample comes."""
         warm_up()
-        self._stance = StanceDetection(params.stance, params.place)
+        self._stance = StanceDetection(params.stance, params.place, params.detectors)
         self._frame_id = params.node.foot_frame
         self._verdicts = self.output(StanceImu, "stance")
         self.input(Imu, "imu/data", imu_block, self._take)

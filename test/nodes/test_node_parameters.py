@@ -14,7 +14,7 @@ from support.processes import node_process
 GROUPS_OF = {
     ImuDriverNode: ("driver", "simulation", "place", "node"),
     ImuIngestionNode: ("intake", "node"),
-    StanceDetectorNode: ("stance", "place", "node"),
+    StanceDetectorNode: ("stance", "detectors", "place", "node"),
     ZuptEkfNode: ("filter", "place", "node"),
 }
 REFUSED = {

@@ -7,6 +7,7 @@ from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
 from pdr_core.records import (
+    Floats,
     HeadingObservation,
     HeadingSource,
     ImuBlock,
@@ -37,11 +38,14 @@ def nothing_to_say(step: StepEvent) -> HeadingObservation:
 
 
 class FootInertial:
-    """Samples in, estimates and steps out. Where the filter asks for heading observations, `heading` gives them."""
+    """Samples in, estimates and steps out. Where the filter asks for heading observations, `heading` gives them.
 
-    def __init__(self, params: Params, heading: Heading = nothing_to_say) -> None:
+    `phases_s`: what `stance_phases` has found in a first pass, for the time gate that learns from it.
+    """
+
+    def __init__(self, params: Params, heading: Heading = nothing_to_say, phases_s: Floats | None = None) -> None:
         self._intake = Ingestion(params.intake)
-        self._stance = StanceDetection(params.stance, params.place)
+        self._stance = StanceDetection(params.stance, params.place, params.detectors, phases_s)
         self._filter = ZuptFilter(params.filter, params.place)
         self._heading = heading
 

@@ -4,22 +4,36 @@ from itertools import pairwise
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, gravity_mps2
-from pdr_core.params import PlaceParams, StanceParams
+from pdr_core.conventions import NANOSECONDS, gravity_mps2, nanoseconds
+from pdr_core.params import DetectorParams, PlaceParams, StanceParams
 from pdr_core.records import NO_SAMPLES, Floats, ImuBlock, StanceBlock, joined, length, part
-from pdr_core.stance import glrt, relative_threshold, rest
+from pdr_core.stance import catalogue, relative_threshold, rest
+
+DEFAULT_DETECTORS = DetectorParams()
+NOT_SAID = 0.0  # how still the foot stands, without the gyro
 
 
 class StanceDetection:
-    """GLRT (Gui eq. 8) with a threshold relative to the last swing, and the soft rest test.
+    """A detector of the family, the noise of its zero velocities, a time gate, and the soft rest test.
 
-    A verdict needs half a window of later samples: `latency_s` is the longest time by which it follows its sample.
+    How still a foot stands is told by the default's statistic, the GLRT, whichever detector judges that it stands.
+    A verdict needs half a window of later samples, and what the gate needs: `latency_s` is the longest time by which it
+    follows its sample. `phases_s`, (n,), are the durations of all phases of the recording, where a first pass has told
+    them to the gate that learns from them.
     """
 
-    def __init__(self, params: StanceParams, place: PlaceParams) -> None:
-        self._params = params
-        self._gravity_mps2 = gravity_mps2(np.radians(place.latitude_deg), place.height_m)
-        self._half_window_ns = nanoseconds(params.window_s / 2.0)
+    def __init__(
+        self,
+        params: StanceParams,
+        place: PlaceParams,
+        detectors: DetectorParams = DEFAULT_DETECTORS,
+        phases_s: Floats | None = None,
+    ) -> None:
+        gravity = gravity_mps2(np.radians(place.latitude_deg), place.height_m)
+        family = catalogue.detectors(params, detectors, gravity)
+        self._stillness, self._detector = family["adaptive"], family[params.detector]
+        self._half_window_ns = max(self._stillness.half_window_ns, self._detector.half_window_ns)
+        self._fresh_gate = lambda: catalogue.time_gates(detectors, phases_s)[params.time_gate]
         self._threshold_limits = relative_threshold.ThresholdLimits(
             nanoseconds(params.memory_s),
             params.relative_share,
@@ -46,7 +60,7 @@ class StanceDetection:
     @property
     def latency_s(self) -> float:
         """The longest time [s] from a sample to its verdict."""
-        return self._params.window_s / 2.0
+        return self._half_window_ns / NANOSECONDS + (self._gate.latency_s if self._gate else 0.0)
 
     def run(self, imu: ImuBlock) -> StanceBlock:
         """Return the samples, of these and earlier ones, whose verdict is known now."""
@@ -66,31 +80,32 @@ class StanceDetection:
 
     def _judge(self, imu: ImuBlock, final: bool) -> StanceBlock:
         samples, first = joined([self._samples, imu]), self._unjudged
-        statistic = self._statistics(samples, final)
+        stop = self._complete(samples, final)
+        stillness, statistic = self._statistics(samples, first, stop)
         out = part(samples, first, first + len(statistic))
         threshold, sd_mps = relative_threshold.thresholds(
-            out.stamp_ns, statistic, self._threshold_limits, self._threshold
+            out.stamp_ns, stillness, self._threshold_limits, self._threshold
         )
+        if self._detector.threshold is not None:
+            threshold = np.full(len(statistic), self._detector.threshold)
+            sd_mps[np.isinf(stillness)] = NOT_SAID
         rest_rate, rest_sd = rest.rests(out, self._rest_limits, self._rest)
         self._keep_what_later_windows_need(samples, first + len(statistic))
-        return StanceBlock(out, statistic <= threshold, statistic, threshold, sd_mps, rest_rate, rest_sd)
+        judged = StanceBlock(out, statistic <= threshold, statistic, threshold, sd_mps, rest_rate, rest_sd)
+        return self._gate.run(judged, final) if self._gate else judged
 
-    def _statistics(self, samples: ImuBlock, final: bool) -> Floats:
-        """Return the statistic of all unjudged samples whose window is complete."""
-        complete = length(samples)
-        if complete and not final:
-            last_ns = samples.stamp_ns[-1] - self._half_window_ns
-            complete = int(np.searchsorted(samples.stamp_ns, last_ns, side="right"))
-        p = self._params
-        return glrt.statistics(
-            samples,
-            self._unjudged,
-            complete,
-            self._half_window_ns,
-            self._gravity_mps2,
-            p.accel_sd_mps2,
-            p.gyro_sd_radps,
-        )
+    def _complete(self, samples: ImuBlock, final: bool) -> int:
+        """Return how many samples have a window that no later sample changes."""
+        if final or not length(samples):
+            return length(samples)
+        return int(np.searchsorted(samples.stamp_ns, samples.stamp_ns[-1] - self._half_window_ns, side="right"))
+
+    def _statistics(self, samples: ImuBlock, start: int, stop: int) -> tuple[Floats, Floats]:
+        """Return the statistics of stillness and of the detector for the samples start:stop, once if they are one."""
+        stillness = self._stillness.judge(samples, start, stop)
+        if self._detector[:3] == self._stillness[:3]:
+            return stillness, stillness
+        return stillness, self._detector.judge(samples, start, stop)
 
     def _keep_what_later_windows_need(self, samples: ImuBlock, judged: int) -> None:
         oldest_ns = samples.stamp_ns[judged:][:1] - self._half_window_ns
@@ -101,8 +116,4 @@ class StanceDetection:
         """Start anew: no sample waits for a verdict, no swing is remembered."""
         self._samples, self._unjudged = NO_SAMPLES, 0
         self._threshold = relative_threshold.fresh_threshold()
-
-
-def nanoseconds(time_s: float) -> int:
-    """Return a time [s] in whole nanoseconds."""
-    return round(time_s * NANOSECONDS)
+        self._gate = self._fresh_gate()

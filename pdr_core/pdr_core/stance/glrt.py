@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pdr_core.maths.centred_window import centred_windows
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import norm
 from pdr_core.records import Floats, ImuBlock
@@ -22,14 +23,10 @@ def statistics(
     The window is centred on the sample: all samples whose stamps differ by at most `half_window_ns`. Gui prints a
     window that begins at the sample; centring it puts the verdict where it belongs. Standing still makes T small.
     """
-    out = np.empty(max(0, stop - start))
-    first, last = 0, start
-    for i in range(start, stop):
-        while imu.stamp_ns[i] - imu.stamp_ns[first] > half_window_ns:
-            first += 1
-        while last < imu.stamp_ns.shape[0] and imu.stamp_ns[last] - imu.stamp_ns[i] <= half_window_ns:
-            last += 1
-        out[i - start] = window_statistic(imu, first, last, gravity_mps2, accel_sd_mps2, gyro_sd_radps)
+    firsts, lasts = centred_windows(imu.stamp_ns, start, stop, half_window_ns)
+    out = np.empty(firsts.shape[0])
+    for i in range(firsts.shape[0]):
+        out[i] = window_statistic(imu, firsts[i], lasts[i], gravity_mps2, accel_sd_mps2, gyro_sd_radps)
     return out
 
 

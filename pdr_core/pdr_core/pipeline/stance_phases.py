@@ -1,0 +1,32 @@
+"""The first of two passes over a recording: how long its stances last, for a time gate that learns from all of them."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from pdr_core.conventions import GAP_NS, NANOSECONDS
+from pdr_core.intake import Ingestion
+from pdr_core.params import Params, changed
+from pdr_core.records import Flags, Floats, ImuBlock, Stamps
+from pdr_core.stance import StanceDetection
+
+
+def stance_phases(pieces: Iterable[ImuBlock], params: Params) -> Floats:
+    """Return the durations [s] of the stances that the detector finds without a gate, without the first and last."""
+    ungated = changed(params, "stance", time_gate="none")
+    intake = Ingestion(params.intake)
+    stance = StanceDetection(ungated.stance, params.place, params.detectors)
+    judged = [stance.run(intake.run(piece)) for piece in pieces]
+    judged += [stance.run(intake.finish()), stance.finish()]
+    stamp_ns = np.concatenate([j.imu.stamp_ns for j in judged])
+    return durations_s(stamp_ns, np.concatenate([j.stance for j in judged]))[1:-1]
+
+
+def durations_s(stamp_ns: Stamps, resting: Flags) -> Floats:
+    """Return how long each run of resting samples lasts, (n,) [s]; a gap ends it."""
+    step_ns = np.diff(stamp_ns)
+    whole = (step_ns >= 0) & (step_ns <= GAP_NS)
+    goes_on = resting[1:] & resting[:-1] & whole
+    begins = np.flatnonzero(resting & ~np.concatenate([[False], goes_on]))
+    ends = np.flatnonzero(resting & ~np.concatenate([goes_on, [False]]))
+    return (stamp_ns[ends] - stamp_ns[begins]) / NANOSECONDS
