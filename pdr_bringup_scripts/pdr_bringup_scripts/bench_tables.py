@@ -37,11 +37,11 @@ def console() -> Console:
     return Console(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
 
 
-def table(title: str, *heads: str) -> Table:
-    """Return an empty table, the numbers to the right."""
+def table(title: str, *heads: str, names: int = 1) -> Table:
+    """Return an empty table, names in the first columns, numbers to the right."""
     empty = Table(title=title, box=SIMPLE, title_justify="left")
     for i, head in enumerate(heads):
-        empty.add_column(head, justify="right" if i else "left", no_wrap=True)
+        empty.add_column(head, justify="left" if i < names else "right", no_wrap=True)
     return empty
 
 

@@ -1,7 +1,7 @@
 """Every stance detector, with every time gate, on one recording."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 
 from pdr_core.bench.ablation import ablation
 from pdr_core.bench.trial import Walk, trial
@@ -9,9 +9,14 @@ from pdr_core.bench.windows import window_steps
 from pdr_core.evaluation.detector_curves import detector_curves, true_speed
 from pdr_core.evaluation.detector_study import Choice, DetectorStudy
 from pdr_core.evaluation.walk_score import WalkScore
-from pdr_core.params import Params, changed
+from pdr_core.parameter import meta
+from pdr_core.params import Params, StanceParams, changed
 from pdr_core.records import StanceBlock
 
+OFFLINE = "kmeans_offline"  # kmeans, but a first pass over the whole recording has told it the phases
+CHOICES = {field.name: meta(field).choices for field in fields(StanceParams)}
+DETECTORS = CHOICES["detector"]
+GATES = (*CHOICES["time_gate"], OFFLINE)
 Seen = Callable[[str], object]
 
 
@@ -20,14 +25,12 @@ def study(
 ) -> DetectorStudy:
     """Run every detector with every gate; `deep`: also windows of every length, and the method without each part.
 
-    `seen` is told what is under way. ValueError if the recording holds no usable sample.
+    `seen` is told what is under way. NoSamples if the recording holds no usable one.
     """
     shallow = compared(walk, params, detectors, gates, seen)
     if not deep:
         return shallow
-    return replace(
-        shallow, windows=window_steps(walk, params, detectors, seen), ablation=ablation(walk, params, seen)
-    )
+    return replace(shallow, windows=window_steps(walk, params, detectors, seen), ablation=ablation(walk, params, seen))
 
 
 def compared(walk: Walk, params: Params, detectors: Sequence[str], gates: Sequence[str], seen: Seen) -> DetectorStudy:
@@ -38,8 +41,9 @@ def compared(walk: Walk, params: Params, detectors: Sequence[str], gates: Sequen
         judged: dict[str, StanceBlock] = {}
         for gate in gates:
             seen(f"{detector}, gate {gate}")
-            one = trial(walk, with_choice(params, Choice(detector, gate)))
-            scores[Choice(detector, gate)], judged[gate] = one.score, one.judged
+            choice = Choice(detector, gate)
+            one = trial(walk, with_choice(params, choice), two_passes=gate == OFFLINE)
+            scores[choice], judged[gate] = one.score, one.judged
         curves.append(detector_curves(detector, judged))
         start_ns = int(judged[gates[0]].imu.stamp_ns[0])
     return DetectorStudy(walk.name, scores, curves, true_speed(walk.truth, start_ns))
@@ -47,4 +51,5 @@ def compared(walk: Walk, params: Params, detectors: Sequence[str], gates: Sequen
 
 def with_choice(params: Params, choice: Choice) -> Params:
     """Return the parameters with that detector and that gate."""
-    return changed(params, "stance", detector=choice.detector, time_gate=choice.gate)
+    gate = "kmeans" if choice.gate == OFFLINE else choice.gate
+    return changed(params, "stance", detector=choice.detector, time_gate=gate)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pdr_core.evaluation.score import Scorer
 from pdr_core.evaluation.walk_score import WalkScore, walk_score
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial, FootOutput
+from pdr_core.pipeline import FootInertial, FootOutput, stance_phases
 from pdr_core.records import ImuBlock, StanceBlock, StepEvent, Truth, joined
 
 
@@ -27,9 +27,10 @@ class Trial:
     score: WalkScore
 
 
-def trial(walk: Walk, params: Params) -> Trial:
-    """Run the whole chain over a recording."""
-    chain, scorer = FootInertial(params), Scorer(walk.truth)
+def trial(walk: Walk, params: Params, two_passes: bool = False) -> Trial:
+    """Run the whole chain over a recording; `two_passes`: its time gate has seen all of it before."""
+    phases_s = stance_phases(walk.pieces, params) if two_passes else None
+    chain, scorer = FootInertial(params, phases_s=phases_s), Scorer(walk.truth)
     judged: list[StanceBlock] = []
     steps: list[StepEvent] = []
     for output in outputs(chain, walk.pieces):

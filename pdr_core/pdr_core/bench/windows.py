@@ -54,7 +54,7 @@ def with_window(params: Params, detector: str, window_s: float) -> Params:
 
 def verdicts(imu: ImuBlock, params: Params) -> Flags:
     """Return the verdict on each sample, (n,)."""
-    stage = StanceDetection(params.stance, params.place)
+    stage = StanceDetection(params.stance, params.place, params.detectors)
     return np.concatenate([stage.run(imu).stance, stage.finish().stance])
 
 

@@ -20,7 +20,6 @@ class Curve(NamedTuple):
     value: Floats  # (m,)
 
 
-
 class DetectorCurves(NamedTuple):
     """One detector on one recording."""
 

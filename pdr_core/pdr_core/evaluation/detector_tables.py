@@ -78,7 +78,9 @@ def as_csv(studies: Sequence[DetectorStudy]) -> str:
 
 def records(studies: Sequence[DetectorStudy]) -> list[dict[str, Any]]:
     """Return a flat mapping for each recording and choice."""
-    return [{"recording": s.recording, **c._asdict(), **asdict(score)} for s in studies for c, score in s.scores.items()]
+    return [
+        {"recording": s.recording, **c._asdict(), **asdict(score)} for s in studies for c, score in s.scores.items()
+    ]
 
 
 def choice_text(choice: Choice) -> tuple[str, str]:

@@ -65,7 +65,9 @@ def line(
     every = slice(None, None, max(1, math.ceil(len(x) / POINTS)))
     look = {"color": colour, "width": width, "dash": dash}
     hover = f"%{{y:.3~f}} {unit}"
-    fig.add_scatter(x=listed(x[every]), y=listed(y[every]), name=name, mode="lines", line=look, hovertemplate=hover, **more)
+    fig.add_scatter(
+        x=listed(x[every]), y=listed(y[every]), name=name, mode="lines", line=look, hovertemplate=hover, **more
+    )
 
 
 def area(fig: "Figure", name: str, x: Floats, y: Floats, colour: str, **more: Any) -> None:
