@@ -6,15 +6,14 @@ from pathlib import Path
 
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION, commit
-from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.terminal import Bar, Terminal
 from pdr_core.bench.detectors import DETECTORS, GATES, study
-from pdr_core.bench.trial import Walk
+from pdr_core.bench.trial import NoSamples, Walk
 from pdr_core.evaluation.detector_page import detector_page
 from pdr_core.evaluation.detector_study import DetectorStudy
 from pdr_core.evaluation.detector_tables import as_csv, as_json
 from pdr_core.params import Params
-from pdr_core.recording import RecordingError, Sensor, open_recording
-from pdr_core.records import length
+from pdr_core.recording import RecordingError, open_recording
 from pdr_core.warmup import warm_up
 
 FILES = "compare.html, compare.csv, compare.json"
@@ -68,17 +67,8 @@ def compared(paths: Sequence[Path], job: Job, terminal: Terminal) -> Compared:
         for path, name in zip(paths, names(paths), strict=True):
             try:
                 for walk in walks(path, name, job.columns):
-                    done.studies.append(
-                        study(
-                            walk,
-                            job.params,
-                            job.detectors,
-                            job.gates,
-                            job.deep,
-                            lambda s, w=walk: bar.show(f"{w.name}: {s}"),
-                        )
-                    )
-            except (Problem, RecordingError) as problem:
+                    done.studies.append(studied(walk, job, bar))
+            except (NoSamples, RecordingError) as problem:
                 done.problems.append(str(problem))
             except OSError as error:
                 done.problems.append(f"{error.filename or path}: {error.strerror or error}")
@@ -93,18 +83,16 @@ def names(paths: Sequence[Path]) -> list[str]:
 
 
 def walks(path: Path, name: str, columns: Path | None) -> Iterator[Walk]:
-    """Read the sensors of a recording, each once, whole; Problem if one has no sample."""
+    """Read the sensors of a recording, each once, whole."""
     session = open_recording(path, column_map=columns)
     for sensor in session.sensors.values():
-        yield walk_of(sensor, path, name if len(session.sensors) == 1 else f"{name} {sensor.name}")
+        own_name = name if len(session.sensors) == 1 else f"{name} {sensor.name}"
+        yield Walk(own_name, list(sensor.pieces()), sensor.truth)
 
 
-def walk_of(sensor: Sensor, path: Path, name: str) -> Walk:
-    """Read a sensor."""
-    pieces = list(sensor.pieces())
-    if not any(map(length, pieces)):
-        raise Problem(f"{path} holds no usable sample of {sensor.name}")
-    return Walk(name, pieces, sensor.truth)
+def studied(walk: Walk, job: Job, bar: Bar) -> DetectorStudy:
+    """Study one sensor."""
+    return study(walk, job.params, job.detectors, job.gates, job.deep, lambda what: bar.show(f"{walk.name}: {what}"))
 
 
 def write_files(out: Path, studies: Sequence[DetectorStudy]) -> None:

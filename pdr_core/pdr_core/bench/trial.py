@@ -7,7 +7,7 @@ from pdr_core.evaluation.score import Scorer
 from pdr_core.evaluation.walk_score import WalkScore, walk_score
 from pdr_core.params import Params
 from pdr_core.pipeline import FootInertial, FootOutput, stance_phases
-from pdr_core.records import ImuBlock, StanceBlock, StepEvent, Truth, joined
+from pdr_core.records import ImuBlock, StanceBlock, StepEvent, Truth, joined, length
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,12 @@ class Trial:
     score: WalkScore
 
 
+class NoSamples(Exception):  # noqa: N818  (what a person meets)
+    """A recording with nothing to judge; the text says why."""
+
+
 def trial(walk: Walk, params: Params, two_passes: bool = False) -> Trial:
-    """Run the whole chain over a recording; `two_passes`: its time gate has seen all of it before."""
+    """Run the whole chain over a recording; `two_passes`: its time gate has seen all of it before. NoSamples of none."""
     phases_s = stance_phases(walk.pieces, params) if two_passes else None
     chain, scorer = FootInertial(params, phases_s=phases_s), Scorer(walk.truth)
     judged: list[StanceBlock] = []
@@ -38,6 +42,8 @@ def trial(walk: Walk, params: Params, two_passes: bool = False) -> Trial:
         judged.append(output.judged)
         steps += output.steps
     verdicts = joined(judged)
+    if not length(verdicts):
+        raise NoSamples(f"{walk.name} holds no usable sample: {'; '.join(n.text for n in chain.notices)}")
     return Trial(verdicts, walk_score(scorer, steps, verdicts.stance))
 
 

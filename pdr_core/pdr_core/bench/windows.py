@@ -41,7 +41,7 @@ def ingested(walk: Walk, params: Params) -> ImuBlock:
 def lengths_s(imu: ImuBlock) -> Floats:
     """Return the lengths of the windows [s]: the first holds one sample."""
     interval_s = float(np.median(np.diff(imu.stamp_ns))) / NANOSECONDS if length(imu) > 1 else 0.0
-    return np.linspace(min(interval_s, LONGEST_S), LONGEST_S, SIZES)
+    return np.linspace(min(interval_s, LONGEST_S), LONGEST_S, SIZES, dtype=np.float64)
 
 
 def with_window(params: Params, detector: str, window_s: float) -> Params:

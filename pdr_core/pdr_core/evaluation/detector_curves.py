@@ -74,7 +74,7 @@ def intervals_s(time_s: Floats, stance: Flags) -> Floats:
 def true_speed(truth: Truth | None, start_ns: int) -> Curve | None:
     """Return the speed [m/s] of the foot over the time since `start_ns`; NaN where motion capture lost the foot.
 
-    It is the distance over SPEED_OVER_S, or between two rows where these are farther apart. None: the path is not known.
+    It is the distance over SPEED_OVER_S, or between rows that are farther apart. None: the path is not known.
     """
     if truth is None or truth.kind is not TruthKind.POSITION:
         return None

@@ -66,7 +66,7 @@ def windows(found: WindowSteps, true_steps: int | None) -> "Figure":
 
 def add_speed(fig: "Figure", speed: Curve) -> None:
     """Draw the true speed in the first row."""
-    place = {"row": 1, "col": 1, "secondary_y": True}
+    place: dict[str, Any] = {"row": 1, "col": 1, "secondary_y": True}
     style.line(fig, "True speed", *speed, style.INK, unit="m/s", width=1.2, **place)
     fig.update_yaxes(title_text="m/s", rangemode="tozero", side="left", **place)
 

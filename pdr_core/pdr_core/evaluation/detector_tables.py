@@ -13,6 +13,10 @@ from pdr_core.evaluation.result import plain
 from pdr_core.evaluation.walk_score import FAILED_M, Summary, WalkScore, summary
 from pdr_core.evaluation.words import spoken
 
+FIGURE_HEADS = (
+    *("recording", "detector", "gate", "strides", "ATE2 m", "ATE3 m", "at strides m"),
+    *("closure 2-D m", "3-D m", "stance %"),
+)
 SUMMARY_HEADS = ("walks", "mean m", "median m", "worst m", f"over {FAILED_M:g} m", "strides wrong")
 LOOP_HEADS = ("loops", "closure 2-D m", "3-D m")
 
@@ -27,10 +31,8 @@ class TextTable(NamedTuple):
 
 def figures(studies: Sequence[DetectorStudy]) -> TextTable:
     """Return a row for each recording and choice."""
-    heads = ("recording", "detector", "gate", "strides", "ATE2 m", "ATE3 m", "at strides m")
-    heads += ("closure 2-D m", "3-D m", "stance %")
     rows = [(s.recording, *choice_text(c), *score_text(score)) for s in studies for c, score in s.scores.items()]
-    return without_empty(TextTable(heads, rows, 3))
+    return without_empty(TextTable(FIGURE_HEADS, rows, 3))
 
 
 def summaries(studies: Sequence[DetectorStudy]) -> TextTable:
