@@ -8,10 +8,12 @@ from pdr_bringup_scripts.bench_tables import console, table
 from pdr_core.evaluation.detector_study import DetectorStudy
 from pdr_core.evaluation.detector_tables import TextTable, figures, summaries, worth
 
+WIDTH = 160  # where no terminal says its own: no name is cut
+
 
 def show_comparison(studies: Sequence[DetectorStudy]) -> None:
     """Print the tables: with colours on a terminal, as plain text elsewhere."""
-    out = console()
+    out = console(WIDTH)
     out.print(rich_table("Stance detectors", figures(studies)))
     if len(studies) > 1:
         out.print(rich_table("Over all recordings (ATE2, mean closure)", summaries(studies)))

@@ -32,7 +32,7 @@ class NoSamples(Exception):  # noqa: N818  (what a person meets)
 
 
 def trial(walk: Walk, params: Params, two_passes: bool = False) -> Trial:
-    """Run the whole chain over a recording; `two_passes`: its time gate has seen all of it before. NoSamples of none."""
+    """Run the whole chain over a recording; `two_passes`: its time gate knows all of it. NoSamples of none."""
     phases_s = stance_phases(walk.pieces, params) if two_passes else None
     chain, scorer = FootInertial(params, phases_s=phases_s), Scorer(walk.truth)
     judged: list[StanceBlock] = []

@@ -43,7 +43,8 @@ def detectors(curves: Sequence[DetectorCurves], speed: Curve | None) -> "Figure"
         add_stances(fig, one.stance_s, place)
         add_statistic(fig, one, place)
         fig.update_yaxes(visible=False, range=[0, 1], fixedrange=True, row=row, col=1, secondary_y=False)
-        fig.update_yaxes(type="log", nticks=5, exponentformat="power", side="left", row=row, col=1, secondary_y=True)
+        fig.update_yaxes(**decades(one.statistic.value), side="left", row=row, col=1, secondary_y=True)
+    fig.update_xaxes(domain=[0, 1])
     fig.update_xaxes(title_text=style.TIME, row=rows, col=1)
     fig.update_annotations(x=0, xanchor="left", font={"size": 13})
     fig.update_layout(height=ROW_PX * rows + EDGES_PX, hoversubplots="axis", legend={"y": 1.0 + 30 / (ROW_PX * rows)})
@@ -60,7 +61,7 @@ def windows(found: WindowSteps, true_steps: int | None) -> "Figure":
     if true_steps is not None:
         ends_s = found.window_s[[0, -1]]
         style.line(fig, "In truth", ends_s, np.full(2, float(true_steps)), style.INK, unit="", dash="dot", width=1.2)
-    fig.update_yaxes(type="log", dtick="D1")
+    fig.update_yaxes(type="log", dtick="D2")
     return fig
 
 
@@ -86,3 +87,10 @@ def add_statistic(fig: "Figure", one: DetectorCurves, place: Mapping[str, Any]) 
     for (name, (colour, dash)), curve in zip(looks.items(), (one.statistic, one.threshold), strict=True):
         more = {"legendgroup": name, "secondary_y": True, **place}
         style.line(fig, name, curve.time_s, style.positive(curve.value), colour, unit="", dash=dash, width=1.2, **more)
+
+
+def decades(value: Floats) -> dict[str, Any]:
+    """Return a logarithmic axis for values, (n,), with about four marks at powers of ten."""
+    known = value[np.isfinite(value) & (value > 0.0)]
+    wide = float(np.ptp(np.log10(known))) if len(known) else 1.0
+    return {"type": "log", "dtick": max(1, round(wide / 3.0)), "exponentformat": "power"}

@@ -11,14 +11,13 @@ from typing import Any, NamedTuple
 from pdr_core.evaluation.detector_study import Choice, DetectorStudy
 from pdr_core.evaluation.result import plain
 from pdr_core.evaluation.walk_score import FAILED_M, Summary, WalkScore, summary
-from pdr_core.evaluation.words import spoken
 
 FIGURE_HEADS = (
     *("recording", "detector", "gate", "strides", "ATE2 m", "ATE3 m", "at strides m"),
-    *("closure 2-D m", "3-D m", "stance %"),
+    *("loop 2-D m", "loop 3-D m", "stance %"),
 )
 SUMMARY_HEADS = ("walks", "mean m", "median m", "worst m", f"over {FAILED_M:g} m", "strides wrong")
-LOOP_HEADS = ("loops", "closure 2-D m", "3-D m")
+LOOP_HEADS = ("loops", "loop 2-D m", "loop 3-D m")
 
 
 class TextTable(NamedTuple):
@@ -30,8 +29,11 @@ class TextTable(NamedTuple):
 
 
 def figures(studies: Sequence[DetectorStudy]) -> TextTable:
-    """Return a row for each recording and choice."""
-    rows = [(s.recording, *choice_text(c), *score_text(score)) for s in studies for c, score in s.scores.items()]
+    """Return a row for each recording and choice; one recording needs no name."""
+    named = len(studies) > 1
+    rows = [
+        (s.recording * named, *choice_text(c), *score_text(score)) for s in studies for c, score in s.scores.items()
+    ]
     return without_empty(TextTable(FIGURE_HEADS, rows, 3))
 
 
@@ -86,8 +88,8 @@ def records(studies: Sequence[DetectorStudy]) -> list[dict[str, Any]]:
 
 
 def choice_text(choice: Choice) -> tuple[str, str]:
-    """Return detector and gate; an empty gate where there is none."""
-    return spoken(choice.detector), "" if choice.gate == "none" else spoken(choice.gate)
+    """Return detector and gate as they are typed; an empty gate where there is none."""
+    return choice.detector, "" if choice.gate == "none" else choice.gate
 
 
 def score_text(s: WalkScore) -> tuple[str, ...]:
