@@ -67,9 +67,9 @@ def windows(found: WindowSteps, true_steps: int | None) -> "Figure":
 
 def add_speed(fig: "Figure", speed: Curve) -> None:
     """Draw the true speed in the first row."""
-    place: dict[str, Any] = {"row": 1, "col": 1, "secondary_y": True}
-    style.line(fig, "True speed", *speed, style.INK, unit="m/s", width=1.2, **place)
-    fig.update_yaxes(title_text="m/s", rangemode="tozero", side="left", **place)
+    place: dict[str, Any] = {"row": 1, "col": 1}
+    style.line(fig, "True speed", *speed, style.INK, unit="m/s", width=1.2, digits=3, **place)
+    fig.update_yaxes(title_text="m/s", rangemode="tozero", secondary_y=False, **place)
 
 
 def add_stances(fig: "Figure", stance_s: Mapping[str, Floats], place: Mapping[str, Any]) -> None:
@@ -85,7 +85,7 @@ def add_statistic(fig: "Figure", one: DetectorCurves, place: Mapping[str, Any]) 
     """Draw statistic and threshold of a detector on a logarithmic axis."""
     looks = {"Statistic": (style.BLUE, "solid"), "Threshold": (style.ORANGE, "dash")}
     for (name, (colour, dash)), curve in zip(looks.items(), (one.statistic, one.threshold), strict=True):
-        more = {"legendgroup": name, "secondary_y": True, **place}
+        more = {"digits": 3, "legendgroup": name, "secondary_y": True, **place}
         style.line(fig, name, curve.time_s, style.positive(curve.value), colour, unit="", dash=dash, width=1.2, **more)
 
 

@@ -59,6 +59,7 @@ def line(
     unit: str = "m",
     dash: str = "solid",
     width: float = 2,
+    digits: int = 6,
     **more: Any,
 ) -> None:
     """Add a line through points (n,), thinned to what a screen can show; what is not finite leaves a gap."""
@@ -66,7 +67,7 @@ def line(
     look = {"color": colour, "width": width, "dash": dash}
     hover = f"%{{y:.3~f}} {unit}"
     fig.add_scatter(
-        x=listed(x[every]), y=listed(y[every]), name=name, mode="lines", line=look, hovertemplate=hover, **more
+        x=listed(x[every]), y=listed(y[every], digits), name=name, mode="lines", line=look, hovertemplate=hover, **more
     )
 
 
@@ -76,9 +77,9 @@ def area(fig: "Figure", name: str, x: Floats, y: Floats, colour: str, **more: An
     fig.add_scatter(x=listed(x), y=listed(y), name=name, **look, **more)
 
 
-def listed(values: Floats) -> list[float | None]:
-    """Return values, (n,), as a short list: six digits each, None where not finite."""
-    return [float(f"{value:.6g}") if math.isfinite(value) else None for value in values.tolist()]
+def listed(values: Floats, digits: int = 6) -> list[float | None]:
+    """Return values, (n,), as a short list: so many digits each, None where not finite."""
+    return [float(f"{value:.{digits}g}") if math.isfinite(value) else None for value in values.tolist()]
 
 
 def positive(values: Floats) -> Floats:
