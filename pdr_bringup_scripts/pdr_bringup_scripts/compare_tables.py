@@ -14,9 +14,11 @@ WIDTH = 160  # where no terminal says its own: no name is cut
 def show_comparison(studies: Sequence[DetectorStudy]) -> None:
     """Print the tables: with colours on a terminal, as plain text elsewhere."""
     out = console(WIDTH)
-    out.print(rich_table("Stance detectors", figures(studies)))
+    out.print(rich_table("Stance detectors (closure: from the first position to the last)", figures(studies)))
     if len(studies) > 1:
-        out.print(rich_table("Over all recordings (ATE2, mean closure)", summaries(studies)))
+        out.print(
+            rich_table("Over all recordings: ATE2 where the path is known, mean closure of loops", summaries(studies))
+        )
     if studies[0].ablation:
         out.print(rich_table("What each part of the method is worth", worth(studies)))
 

@@ -14,10 +14,10 @@ from pdr_core.evaluation.walk_score import FAILED_M, Summary, WalkScore, summary
 
 FIGURE_HEADS = (
     *("recording", "detector", "gate", "strides", "ATE2 m", "ATE3 m", "at strides m"),
-    *("loop 2-D m", "loop 3-D m", "stance %"),
+    *("closure 2-D m", "closure 3-D m", "stance %"),
 )
 SUMMARY_HEADS = ("walks", "mean m", "median m", "worst m", f"over {FAILED_M:g} m", "strides wrong")
-LOOP_HEADS = ("loops", "loop 2-D m", "loop 3-D m")
+LOOP_HEADS = ("loops", "closure 2-D m", "closure 3-D m")
 
 
 class TextTable(NamedTuple):

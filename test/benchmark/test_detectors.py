@@ -1,0 +1,117 @@
+"""Every stance detector with every time gate on all development recordings, in the default filter and in a plain one.
+
+`-s` shows the tables of pdr_core/docs/detectors.md.
+"""
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from pdr_bringup_scripts.comparing import walks
+from pdr_core.bench.ablation import without
+from pdr_core.bench.detectors import DETECTORS, GATES, with_choice
+from pdr_core.bench.trial import Walk, trial
+from pdr_core.evaluation.detector_study import Choice
+from pdr_core.evaluation.walk_score import summary
+from pdr_core.params import Params, changed
+
+DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "detectors.md"
+VICON, TILES, XIO, GAITMAP = "pyshoe_vicon", "tile_walks_marg", "xio_ngimu", "gaitmap_dual_foot"
+FILES = {VICON: ("*.mat", 28), TILES: ("*.csv", 5), XIO: ("*.csv", 1), GAITMAP: ("imu_sample.csv", 2)}
+PLAIN = ("confidence", "rolling contact", "Huber's weight", "contradiction", "gyro bias: taken as 0")
+FILTERS = ("The default filter", "A plain filter")
+Groups = dict[str, list[Walk]]
+pytestmark = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figures: `pdr test --full`")
+
+
+class Row(NamedTuple):
+    """One line of a table."""
+
+    vicon_mean_m: float
+    vicon_median_m: float
+    vicon_worst_m: float
+    vicon_over_1_m: int
+    tiles_mean_m: float
+    strides_wrong: int  # of the tile walks
+    xio_closure_m: float
+    gaitmap_mean_m: float
+
+
+def filter_params(name: str) -> Params:
+    params = Params()
+    for part in PLAIN if name == FILTERS[1] else ():
+        params = without(params, part)
+    return params
+
+
+def measured(groups: Groups, params: Params, choice: Choice) -> Row:
+    chosen = with_choice(params, choice)
+    two_passes = choice.gate.endswith("offline")
+    of = {name: summary([trial(walk, chosen, two_passes).score for walk in some]) for name, some in groups.items()}
+    room, tiles = of[VICON], of[TILES]
+    spread = (room.mean_m, room.median_m, room.worst_m, room.failed)
+    return Row(*spread, tiles.mean_m, tiles.strides_wrong, of[XIO].closure_2d_m, of[GAITMAP].mean_m)
+
+
+def cell(value: float) -> str:
+    return str(value) if isinstance(value, int) else f"{value:.3f}"
+
+
+def line(choice: Choice, row: Row) -> str:
+    return f"| {' | '.join([*choice, *map(cell, row)])} |"
+
+
+def shown() -> dict[tuple[str, Choice], list[float]]:
+    """The rows of the document, by the heading above them."""
+    rows, heading = {}, ""
+    for text in DOCUMENT.read_text().splitlines():
+        heading = text.lstrip("# ") if text.startswith("#") else heading
+        cells = [cell.strip() for cell in text.split("|")[1:-1]]
+        if len(cells) == 2 + len(Row._fields) and cells[0] in DETECTORS:
+            rows[heading, Choice(*cells[:2])] = [float(cell) for cell in cells[2:]]
+    return rows
+
+
+@pytest.fixture(scope="module")
+def groups(recordings: Path) -> Groups:
+    found = {}
+    for folder, (pattern, count) in FILES.items():
+        paths = sorted((recordings / folder).glob(pattern))
+        found[folder] = [walk for path in paths for walk in walks(path, path.stem, None)]
+        assert len(found[folder]) == count, folder
+    return found
+
+
+@pytest.fixture(scope="module")
+def tables(groups: Groups) -> dict[str, dict[Choice, Row]]:
+    choices = [Choice(detector, gate) for detector in DETECTORS for gate in GATES]
+    found = {name: {c: measured(groups, filter_params(name), c) for c in choices} for name in FILTERS}
+    for name, rows in found.items():
+        print("", f"### {name}", "", *(line(choice, row) for choice, row in rows.items()), sep="\n")
+    return found
+
+
+def test_the_document_shows_what_is_measured(tables: dict[str, dict[Choice, Row]]) -> None:
+    expected = {
+        (name, c): pytest.approx(list(row), rel=0.02, abs=0.0015) for name in tables for c, row in tables[name].items()
+    }
+    assert shown() == expected
+
+
+def test_the_default_is_the_only_one_that_no_walk_defeats(tables: dict[str, dict[Choice, Row]]) -> None:
+    rows = tables[FILTERS[0]]
+    default = rows[Choice("adaptive", "none")]
+    assert (default.vicon_over_1_m, default.strides_wrong) == (0, 0)
+    assert default.vicon_worst_m == min(row.vicon_worst_m for c, row in rows.items() if c.gate == "none")
+
+
+def test_a_plain_filter_costs_every_detector(tables: dict[str, dict[Choice, Row]]) -> None:
+    for choice, row in tables[FILTERS[0]].items():
+        assert tables[FILTERS[1]][choice].vicon_median_m > 1.3 * row.vicon_median_m, choice
+
+
+def test_a_detector_is_told_apart_from_one_that_always_says_stance(groups: Groups) -> None:
+    never_moving = changed(Params(), "detectors", glrt_threshold=1e9)
+    assert measured(groups, never_moving, Choice("glrt", "none")).strides_wrong > 100
