@@ -11,14 +11,19 @@ from pathlib import Path
 
 import pytest
 
+from pdr_core.conventions import STANDARD_GRAVITY_MPS2
+from pdr_core.params import DetectorParams, PlaceParams, StanceParams
 from pdr_core.recording import open_recording
-from pdr_core.records import joined, length
+from pdr_core.records import ImuBlock, joined, length
+from pdr_core.stance import StanceDetection
+from pdr_core.stance.catalogue import detectors
 from pdr_core.warmup import warm_up
 from support.stopwatch import Stopwatch, samples_per_s, timed
 from support.walks import straight_walk, write_csv
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 OFFLINE_LIMIT = 200_000  # samples/s
+DETECTOR_LIMIT_NS = 1000.0
 SECOND_START_LIMIT_S = 2.0
 full = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figures: `pdr test --full`")
 
@@ -39,11 +44,19 @@ def test_every_stage_can_be_timed() -> None:
 
 @full
 def test_offline_speed(recordings: Path) -> None:
-    sessions = [open_recording(path) for path in sorted((recordings / "pyshoe_vicon").glob("*.mat"))]
-    walks = [joined(list(sensor.pieces())) for session in sessions for sensor in session.sensors.values()]
-    speeds = samples_per_s(walks, rounds=7)
+    speeds = samples_per_s(vicon_walks(recordings), rounds=7)
     show(speeds)
     assert speeds["all together"] >= OFFLINE_LIMIT
+
+
+@full
+def test_every_detector_takes_less_than_a_microsecond_a_sample(recordings: Path) -> None:
+    walks = vicon_walks(recordings)
+    fine = [straight_walk(10, 1000.0).imu]
+    for detector in detectors(StanceParams(), DetectorParams(), STANDARD_GRAVITY_MPS2):
+        usual_ns, fine_ns = stance_ns(detector, walks), stance_ns(detector, fine)
+        print(f"\n{detector:<30}{usual_ns:>6.0f} ns a sample at 200 Hz, {fine_ns:>6.0f} ns at 1 kHz", end="")
+        assert usual_ns < DETECTOR_LIMIT_NS
 
 
 @full
@@ -66,6 +79,23 @@ def test_first_compile(tmp_path: Path) -> None:
     print(f"\nfirst compile {first:.1f} s, {first_busy:.1f} s of it computing", end="")
     print(f"; loaded again {second:.2f} s ({second_busy:.2f} s), {len(files)} files of {size_mb:.1f} MB", end="")
     assert files, "nothing is kept: every start compiles"
+
+
+def vicon_walks(recordings: Path) -> list[ImuBlock]:
+    """Return the walks in the motion capture room."""
+    sessions = [open_recording(path) for path in sorted((recordings / "pyshoe_vicon").glob("*.mat"))]
+    return [joined(list(sensor.pieces())) for session in sessions for sensor in session.sensors.values()]
+
+
+def stance_ns(detector: str, walks: list[ImuBlock]) -> float:
+    """Return the time [ns] from a sample to its verdict, the rest test included, the best of several rounds."""
+    params, rounds = StanceParams(detector=detector), []
+    for _ in range(5):
+        watch = Stopwatch()
+        for walk in walks:
+            watch("stance", StanceDetection(params, PlaceParams()).run, walk)
+        rounds.append(watch.seconds["stance"])
+    return min(rounds) / sum(map(length, walks)) * 1e9
 
 
 def process_s(command: list[str], **environment: str) -> tuple[float, float]:

@@ -12,6 +12,8 @@ def run(
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
+    detector: str = typer.Option(None, help="what tells a standing foot: adaptive, glrt ...; default: as in the file"),
+    gate: str = typer.Option(None, help="what sorts out false stances by their time: none, gait_phases or kmeans"),
 ) -> None:
     """Estimate the walk in a recording, offline and at full speed.
 
@@ -21,11 +23,13 @@ def run(
     from pdr_bringup_scripts.offline import run_recording
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.evaluation.result import in_words
-    from pdr_core.params import Params
+    from pdr_core.params import Params, changed
     from pdr_core.params_file import load_params
     from pdr_core.recording import open_recording
 
     chosen = load_params(params) if params else Params()
+    named = {"detector": detector, "time_gate": gate}
+    chosen = changed(chosen, "stance", **{name: value for name, value in named.items() if value is not None})
     session = open_recording(recording, column_map=columns)
     result = run_recording(session, chosen, sensor, out, Terminal())
     print(result.to_json() if json else in_words(result))

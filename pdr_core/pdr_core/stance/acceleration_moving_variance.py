@@ -13,7 +13,7 @@ def statistics(imu: ImuBlock, start: int, stop: int, half_window_ns: int) -> Flo
     """Return the variance of the specific force [m^2/s^4], all axes together, around the samples start:stop.
 
     Skog et al. 2010 (Zero-velocity detection - an algorithm evaluation), MV, without the accelerometer's variance,
-    which only scales the threshold.
+    which only scales the threshold. Infinity where the window has one sample: it tells nothing of a change.
     """
     firsts, lasts = centred_windows(imu.stamp_ns, start, stop, half_window_ns)
     out = np.empty(firsts.shape[0])
@@ -24,7 +24,9 @@ def statistics(imu: ImuBlock, start: int, stop: int, half_window_ns: int) -> Flo
 
 @compiled
 def variance(force_mps2: Floats, first: int, last: int) -> float:
-    """Return the mean square distance [m^2/s^4] of the rows first:last from their mean."""
+    """Return the mean square distance [m^2/s^4] of the rows first:last from their mean; infinity for one row."""
+    if last - first < 2:
+        return np.inf
     share = 1.0 / (last - first)
     mean = (0.0, 0.0, 0.0)
     for k in range(first, last):

@@ -8,9 +8,10 @@ A stride has four phases (figure 2), here told by the detector's verdicts and by
     heel strike  it may come down: the next rest is a stance
 
 In mid-swing the foot moves evenly for an instant and the statistic dips below the threshold (figure 3). Such a dip is
-short. So a rest within the swing must last for `dip_max_s` to be a stance after all: a foot that stands is never locked
-out. A rest after it must last for `stance_min_s` alone, Gui's time threshold, for which he gives no figure; a longer
-one would take the stances of a run, which are as short as dips.
+short. So a rest within the swing must last for `dip_max_s`, the time threshold, to be a stance after all: a foot that
+stands is never locked out. Gui gives no figure for it, nor says whether it holds for every stance. Here it does not:
+after the swing a rest is a stance, however short. Runners stand for no longer than a dip lasts, and a threshold of
+0.02 s on every stance already loses strides.
 """
 
 from typing import NamedTuple
@@ -32,7 +33,6 @@ class GaitLimits(NamedTuple):
     toe_off_ns: int
     swing_min_ns: int
     dip_max_ns: int
-    stance_min_ns: int
 
 
 class GaitState(NamedTuple):
@@ -49,12 +49,11 @@ class GaitPhases(TimeGate):
 
     def __init__(self, params: DetectorParams) -> None:
         super().__init__()
-        self.latency_s = max(params.gait_phases_dip_max_s, params.gait_phases_stance_min_s)
+        self.latency_s = params.gait_phases_dip_max_s
         self._limits = GaitLimits(
             nanoseconds(params.gait_phases_toe_off_s),
             nanoseconds(params.gait_phases_swing_min_s),
             nanoseconds(params.gait_phases_dip_max_s),
-            nanoseconds(params.gait_phases_stance_min_s),
         )
         self._state = fresh_state()
 
@@ -81,7 +80,7 @@ def phases(stamp_ns: Stamps, resting: Flags, limits: GaitLimits, state: GaitStat
         if not resting[i]:
             move(stamp_ns[i], limits, state)
         elif state.phase[0] != STANCE and not state.dip[0]:
-            enough, certain = lasts(stamp_ns, resting, i, needed_ns(limits, state))
+            enough, certain = lasts(stamp_ns, resting, i, limits.dip_max_ns if state.phase[0] == SWING else 0)
             if not (certain or final):
                 return out[:i]
             state.dip[0] = not enough
@@ -90,14 +89,6 @@ def phases(stamp_ns: Stamps, resting: Flags, limits: GaitLimits, state: GaitStat
         state.last_ns[0] = stamp_ns[i]
         out[i] = state.phase[0]
     return out
-
-
-@compiled
-def needed_ns(limits: GaitLimits, state: GaitState) -> int:
-    """Return how long a rest must last to be a stance in this phase."""
-    if state.phase[0] == TOE_OFF:
-        return 0
-    return limits.dip_max_ns if state.phase[0] == SWING else limits.stance_min_ns
 
 
 @compiled

@@ -4,7 +4,7 @@ import numpy as np
 
 from pdr_core.maths.centred_window import centred_windows
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import norm
+from pdr_core.maths.vector import added, difference, norm, row, scaled
 from pdr_core.records import Floats, ImuBlock
 
 
@@ -35,15 +35,15 @@ def window_statistic(
     imu: ImuBlock, first: int, last: int, gravity_mps2: float, accel_sd_mps2: float, gyro_sd_radps: float
 ) -> float:
     """Return T over the samples first:last: how far they are from gravity along the mean direction, and from rest."""
-    mean = np.zeros(3)
+    mean = (0.0, 0.0, 0.0)
     for k in range(first, last):
-        mean += imu.accel_mps2[k]
+        mean = added(mean, row(imu.accel_mps2, k))
         if imu.gyro_sd_radps[k] < 0.0:
             return np.inf
     length = norm(mean)
-    expected = mean * (gravity_mps2 / length) if length > 0.0 else mean
+    expected = scaled(gravity_mps2 / length, mean) if length > 0.0 else mean
     total = 0.0
     for k in range(first, last):
-        total += (norm(imu.accel_mps2[k] - expected) / accel_sd_mps2) ** 2
-        total += (norm(imu.gyro_radps[k]) / gyro_sd_radps) ** 2
+        total += (norm(difference(row(imu.accel_mps2, k), expected)) / accel_sd_mps2) ** 2
+        total += (norm(row(imu.gyro_radps, k)) / gyro_sd_radps) ** 2
     return total / (last - first)

@@ -21,7 +21,7 @@ from pdr_core.records import Floats, ImuBlock
 
 @compiled
 def statistics(imu: ImuBlock, start: int, stop: int, half_window_ns: int) -> Floats:
-    """Return the largest mean edge of a cut [m/s^2] around the samples start:stop; 0 where a window has one sample."""
+    """Return the largest mean edge of a cut [m/s^2] around the samples start:stop; infinity for a lonely sample."""
     firsts, lasts = centred_windows(imu.stamp_ns, start, stop, half_window_ns)
     out = np.empty(firsts.shape[0])
     edges = np.empty(max(0, np.max(lasts - firsts)) if firsts.shape[0] else 0)
@@ -35,8 +35,11 @@ def longest_cut(force_mps2: Floats, edges: Floats) -> float:
     """Return the largest mean distance between the rows up to one and the rows from a later one on; `edges` is scratch.
 
     With the edges from all older rows to a newer one summed up as the older part grows, each cut costs one addition.
+    One row has no cut: infinity.
     """
     n = force_mps2.shape[0]
+    if n < 2:
+        return np.inf
     edges[:n] = 0.0
     longest = 0.0
     for older in range(n - 1):
