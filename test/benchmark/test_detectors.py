@@ -4,6 +4,8 @@
 """
 
 import os
+import re
+from dataclasses import asdict
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,6 +24,7 @@ VICON, TILES, XIO, GAITMAP = "pyshoe_vicon", "tile_walks_marg", "xio_ngimu", "ga
 FILES = {VICON: ("*.mat", 28), TILES: ("*.csv", 5), XIO: ("*.csv", 1), GAITMAP: ("imu_sample.csv", 2)}
 PLAIN = ("confidence", "rolling contact", "Huber's weight", "contradiction", "gyro bias: taken as 0")
 FILTERS = ("The default filter", "A plain filter")
+NUMBER = re.compile(r"(?<![\w^])\d[\d.]*")
 Groups = dict[str, list[Walk]]
 pytestmark = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figures: `pdr test --full`")
 
@@ -97,7 +100,7 @@ def test_the_document_shows_what_is_measured(tables: dict[str, dict[Choice, Row]
     expected = {
         (name, c): pytest.approx(list(row), rel=0.02, abs=0.0015) for name in tables for c, row in tables[name].items()
     }
-    assert shown() == expected
+    assert shown() == {key: pytest.approx(row, rel=0.02, abs=0.0015) for key, row in expected.items()}
 
 
 def test_the_default_is_the_only_one_that_no_walk_defeats(tables: dict[str, dict[Choice, Row]]) -> None:
@@ -110,6 +113,24 @@ def test_the_default_is_the_only_one_that_no_walk_defeats(tables: dict[str, dict
 def test_a_plain_filter_costs_every_detector(tables: dict[str, dict[Choice, Row]]) -> None:
     for choice, row in tables[FILTERS[0]].items():
         assert tables[FILTERS[1]][choice].vicon_median_m > 1.3 * row.vicon_median_m, choice
+
+
+def test_gates_help_a_plain_filter(tables: dict[str, dict[Choice, Row]]) -> None:
+    alone, *gated = (tables[FILTERS[1]][Choice("adaptive", gate)] for gate in GATES)
+    assert all(row.vicon_mean_m < 0.95 * alone.vicon_mean_m for row in gated)
+    assert all(row.tiles_mean_m < 0.5 * alone.tiles_mean_m for row in gated)
+
+
+def test_the_document_names_windows_and_thresholds_as_they_are() -> None:
+    lines = [[cell.strip() for cell in text.split("|")[1:-1]] for text in DOCUMENT.read_text().splitlines()]
+    told = {cells[0]: cells[2:4] for cells in lines if len(cells) == 5 and cells[0] in DETECTORS}
+    own = asdict(Params().detectors)
+    assert set(told) == set(DETECTORS)
+    for name, (window, threshold) in told.items():
+        if name != "adaptive":
+            assert float(window) == own[f"{name}_window_s"]
+            limits = [value for key, value in own.items() if key.startswith(name) and key.endswith("threshold")]
+            assert [float(text) for text in NUMBER.findall(threshold)] == limits, name
 
 
 def test_a_detector_is_told_apart_from_one_that_always_says_stance(groups: Groups) -> None:

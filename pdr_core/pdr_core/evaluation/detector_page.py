@@ -63,9 +63,9 @@ def parts(studies: Sequence[DetectorStudy]) -> Iterator[Part]:
 def pictures(study: DetectorStudy, number: int) -> Iterator[Picture]:
     """Yield the figures of one recording."""
     caption = "The foot stands where the statistic is below the threshold and no gate objects (shaded)."
-    gaps = " The true speed has gaps where motion capture lost the foot." if study.speed else ""
+    gaps = " The true speed has gaps where the truth repeats itself, as motion capture does that has lost the foot."
     drawn = detector_plots.detectors(study.curves, study.speed).to_json()
-    yield Picture(f"detectors-{number}", "When the foot stands", caption + gaps, drawn)
+    yield Picture(f"detectors-{number}", "When the foot stands", caption + gaps * bool(study.speed), drawn)
     if study.windows:
         caption = "Swings between two stances, by the length of the detector's window (Qiu figure 6)."
         drawn = detector_plots.windows(study.windows, study.strides_true).to_json()
