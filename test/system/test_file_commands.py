@@ -1,6 +1,7 @@
 """`pdr simulate`, `pdr convert` and `pdr evaluate`, as they are typed."""
 
 import json
+import re
 
 import pytest
 
@@ -62,6 +63,23 @@ def test_a_users_csv_runs_alike_before_and_after(tmp_path):
     done("run", tmp_path / "bag", "--out", tmp_path / "after")
     before, after = (tmp_path / name / "trajectory.tum" for name in ("before", "after"))
     assert before.read_bytes() == after.read_bytes()
+
+
+def test_another_detector_and_a_gate_are_named_on_the_command_line(folder, tmp_path):
+    for name, gate in (("mbgtd", "kmeans"), ("three_conditions", "gait_phases")):
+        done("run", folder / "walk", "--detector", name, "--gate", gate, "--out", tmp_path / name)
+        stance = json.loads((tmp_path / name / "result.json").read_text())["config"]["stance"]
+        assert (stance["detector"], stance["time_gate"]) == (name, gate)
+    usual, other = (f / "trajectory.tum" for f in (folder / "result of walk", tmp_path / "mbgtd"))
+    assert usual.read_bytes() != other.read_bytes()
+
+
+@pytest.mark.parametrize("option", ["--detector", "--gate"])
+def test_an_unknown_name_is_answered_with_the_known_ones(option, folder):
+    known = {"--detector": "adaptive, glrt, .*, three_conditions", "--gate": "none, gait_phases, kmeans"}[option]
+    answer = pdr("run", folder / "walk", option, "shoe")
+    check_refused(answer, "'shoe': must be str, one of ")
+    assert re.search(known, answer.stderr)
 
 
 def test_what_exists_stays_unless_force_is_given(folder, tmp_path):

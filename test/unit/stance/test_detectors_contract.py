@@ -31,7 +31,16 @@ def walk(rate_hz):
     return simulated_walk(params, start_ns=10**18)
 
 
-WALK = walk(200.0)
+def troubled():
+    """Return a walk with a gap, a clock that is set back, and a pause of the gyro."""
+    imu = ImuBlock(*(column.copy() for column in walk(200.0).imu))
+    imu.stamp_ns[650:] += 3_000_000_000
+    imu.stamp_ns[900:] -= 500_000_000_000
+    imu.gyro_radps[1000:1100], imu.gyro_sd_radps[1000:1100] = 0.0, -1.0
+    return imu
+
+
+WALK, TROUBLED = walk(200.0), troubled()
 
 
 def stage(detector, gate="none"):
@@ -112,13 +121,13 @@ def test_later_stamps_shift_nothing(detector, gate):
 
 @EACH
 @EACH_GATE
-@given(cuts=st.lists(st.integers(0, length(WALK.imu)), max_size=6))
+@given(cuts=st.lists(st.integers(0, length(TROUBLED)), max_size=6))
 @settings(max_examples=8)
 def test_cutting_the_stream_anywhere_changes_nothing(detector, gate, cuts):
     stance = stage(detector, gate)
-    ends = [0, *sorted(cuts), length(WALK.imu)]
-    pieces = [stance.run(part(WALK.imu, a, b)) for a, b in pairwise(ends)]
-    assert same(joined([*pieces, stance.finish()]), judged(WALK.imu, detector, gate))
+    ends = [0, *sorted(cuts), length(TROUBLED)]
+    pieces = [stance.run(part(TROUBLED, a, b)) for a, b in pairwise(ends)]
+    assert same(joined([*pieces, stance.finish()]), judged(TROUBLED, detector, gate))
 
 
 @EACH_GATE
