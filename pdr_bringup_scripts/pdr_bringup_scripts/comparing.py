@@ -13,7 +13,7 @@ from pdr_core.evaluation.detector_page import detector_page
 from pdr_core.evaluation.detector_study import DetectorStudy
 from pdr_core.evaluation.detector_tables import as_csv, as_json
 from pdr_core.params import Params
-from pdr_core.recording import RecordingError, open_recording
+from pdr_core.recording import RecordingError, Session, open_recording
 from pdr_core.warmup import warm_up
 
 FILES = "compare.html, compare.csv, compare.json"
@@ -36,6 +36,7 @@ class Compared:
 
     studies: list[DetectorStudy] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)  # one sentence for each recording that is missing
+    warnings: list[str] = field(default_factory=list)  # what could not be read of the others
 
 
 def chosen_detectors(text: str) -> list[str]:
@@ -66,8 +67,10 @@ def compared(paths: Sequence[Path], job: Job, terminal: Terminal) -> Compared:
     with terminal.bar("Comparing", len(paths)) as bar:
         for path, name in zip(paths, names(paths), strict=True):
             try:
-                for walk in walks(path, name, job.columns):
+                session = open_recording(path, column_map=job.columns)
+                for walk in walks(session, name):
                     done.studies.append(studied(walk, job, bar))
+                done.warnings.extend(f"Warning: {name}: {notice.text.rstrip('.')}." for notice in session.notices)
             except (NoSamples, RecordingError) as problem:
                 done.problems.append(str(problem))
             except OSError as error:
@@ -82,9 +85,8 @@ def names(paths: Sequence[Path]) -> list[str]:
     return [stem if short.count(stem) == 1 else str(path) for stem, path in zip(short, paths, strict=True)]
 
 
-def walks(path: Path, name: str, columns: Path | None) -> Iterator[Walk]:
+def walks(session: Session, name: str) -> Iterator[Walk]:
     """Read the sensors of a recording, each once, whole."""
-    session = open_recording(path, column_map=columns)
     for sensor in session.sensors.values():
         own_name = name if len(session.sensors) == 1 else f"{name} {sensor.name}"
         yield Walk(own_name, list(sensor.pieces()), sensor.truth)

@@ -18,6 +18,7 @@ from pdr_core.bench.trial import Walk, trial
 from pdr_core.evaluation.detector_study import Choice
 from pdr_core.evaluation.walk_score import summary
 from pdr_core.params import Params, changed
+from pdr_core.recording import open_recording
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "detectors.md"
 VICON, TILES, XIO, GAITMAP = "pyshoe_vicon", "tile_walks_marg", "xio_ngimu", "gaitmap_dual_foot"
@@ -82,7 +83,7 @@ def groups(recordings: Path) -> Groups:
     found = {}
     for folder, (pattern, count) in FILES.items():
         paths = sorted((recordings / folder).glob(pattern))
-        found[folder] = [walk for path in paths for walk in walks(path, path.stem, None)]
+        found[folder] = [walk for path in paths for walk in walks(open_recording(path), path.stem)]
         assert len(found[folder]) == count, folder
     return found
 

@@ -79,6 +79,16 @@ def test_nothing_that_can_be_read_is_one_sentence(folder):
     check_refused(pdr("compare", "broken.csv", cwd=folder), "broken.csv")
 
 
+def test_what_could_not_be_read_is_a_warning(folder, tmp_path):
+    assert pdr("convert", folder / "walk1.csv", tmp_path / "whole.mcap").returncode == 0
+    whole = (tmp_path / "whole.mcap").read_bytes()
+    (tmp_path / "cut.mcap").write_bytes(whole[: len(whole) // 2])
+    run = pdr("compare", "--detectors", "glrt", tmp_path / "cut.mcap")
+    assert run.returncode == 0
+    assert run.stderr.startswith("Warning: cut: cut.mcap is damaged: ")
+    assert "glrt" in run.stdout
+
+
 def test_recordings_of_the_same_name_keep_their_folders(folder, tmp_path):
     (tmp_path / "walk1.csv").write_bytes((folder / "walk1.csv").read_bytes())
     for companion in folder.glob("walk1*"):

@@ -35,6 +35,8 @@ def compare(
         make_folder(out)
     terminal = Terminal()
     done = compared(recordings, job, terminal)
+    for warning in done.warnings:
+        terminal.say(warning)
     if done.studies and json:
         print(as_json(done.studies))
     elif done.studies:

@@ -48,7 +48,7 @@ def best(studies: Sequence[DetectorStudy]) -> str:
         return "No detector brings every recording home, or no recording knows its true path."
     detector, gate = choice_text(min(known, key=lambda choice: known[choice]))
     named = f"{detector} with the gate {gate}" if gate else detector
-    return f"The least mean error has {named}: {metres(min(known.values()))} (ATE2)."
+    return f"The mean error is least with {named}: {metres(min(known.values()))} (ATE2)."
 
 
 def parts(studies: Sequence[DetectorStudy]) -> Iterator[Part]:
@@ -57,7 +57,8 @@ def parts(studies: Sequence[DetectorStudy]) -> Iterator[Part]:
     yield Part("Each detector over all recordings", caption, summaries(studies))
     caption = "The setting at hand with one part of the method switched off at a time."
     yield Part("What each part of the method is worth", caption, worth(studies))
-    yield Part("All figures", "Every detector on every recording.", figures(studies))
+    if len(studies) > 1:
+        yield Part("All figures", "Every detector on every recording.", figures(studies))
 
 
 def pictures(study: DetectorStudy, number: int) -> Iterator[Picture]:

@@ -73,6 +73,9 @@ def test_what_the_page_says(studies):
         assert words in text
     assert "&lt;/script&gt;room" in text
     assert "</script>room" not in text
+    assert re.search(r"The mean error is least with \w+: 0\.\d\d m", text)
+    assert "All figures" in text
+    assert "All figures" not in detector_page(studies[:1], "1.0", "abc")
 
 
 def test_every_detector_has_a_row_with_statistic_threshold_and_a_lane_for_each_gate(studies):
