@@ -97,8 +97,17 @@ def studied(walk: Walk, job: Job, bar: Bar) -> DetectorStudy:
     return study(walk, job.params, job.detectors, job.gates, job.deep, lambda what: bar.show(f"{walk.name}: {what}"))
 
 
-def write_files(out: Path, studies: Sequence[DetectorStudy]) -> None:
+def write_files(out: Path, studies: Sequence[DetectorStudy], terminal: Terminal) -> None:
     """Write the page and the figures into a folder that exists."""
     page = detector_page(studies, VERSION, commit())
     for name, text in zip(FILES.split(", "), (page, as_csv(studies), as_json(studies) + "\n"), strict=True):
         (out / name).write_text(text, encoding="utf-8")
+    terminal.say(f"Written to {out}: {FILES}")
+
+
+def tell(done: Compared, terminal: Terminal) -> None:
+    """Say what could not be read of some recordings; Problem, after all else, if others could not be read at all."""
+    for warning in done.warnings:
+        terminal.say(warning)
+    if done.problems:
+        raise Problem("\npdr: ".join(done.problems))

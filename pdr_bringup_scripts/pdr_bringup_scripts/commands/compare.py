@@ -22,27 +22,21 @@ def compare(
     """
     from pdr_bringup_scripts.book import make_folder
     from pdr_bringup_scripts.compare_tables import show_comparison
-    from pdr_bringup_scripts.comparing import FILES, Job, chosen_detectors, chosen_gates, compared, write_files
-    from pdr_bringup_scripts.problems import Problem
+    from pdr_bringup_scripts.comparing import Job, chosen_detectors, chosen_gates, compared, tell, write_files
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.evaluation.detector_tables import as_json
     from pdr_core.params import Params
     from pdr_core.params_file import load_params
 
-    chosen = load_params(params) if params else Params()
+    chosen, terminal = load_params(params) if params else Params(), Terminal()
     job = Job(chosen, chosen_detectors(detectors), chosen_gates(gates), bool(out or json), columns)
     if out:
         make_folder(out)
-    terminal = Terminal()
     done = compared(recordings, job, terminal)
-    for warning in done.warnings:
-        terminal.say(warning)
     if done.studies and json:
         print(as_json(done.studies))
     elif done.studies:
         show_comparison(done.studies)
     if done.studies and out:
-        write_files(out, done.studies)
-        terminal.say(f"Written to {out}: {FILES}")
-    if done.problems:
-        raise Problem("\npdr: ".join(done.problems))
+        write_files(out, done.studies, terminal)
+    tell(done, terminal)
