@@ -7,7 +7,7 @@ import numpy as np
 from pdr_core.conventions import GAP_NS, NANOSECONDS
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params, changed
-from pdr_core.records import Flags, Floats, ImuBlock, Stamps
+from pdr_core.records import Flags, Floats, ImuBlock, Stamps, StanceBlock
 from pdr_core.stance import StanceDetection
 
 
@@ -16,10 +16,15 @@ def stance_phases(pieces: Iterable[ImuBlock], params: Params) -> Floats:
     ungated = changed(params, "stance", time_gate="none")
     intake = Ingestion(params.intake)
     stance = StanceDetection(ungated.stance, params.place, params.detectors)
-    judged = [stance.run(intake.run(piece)) for piece in pieces]
-    judged += [stance.run(intake.finish()), stance.finish()]
-    stamp_ns = np.concatenate([j.imu.stamp_ns for j in judged])
-    return durations_s(stamp_ns, np.concatenate([j.stance for j in judged]))[1:-1]
+    judged = [columns(stance.run(intake.run(piece))) for piece in pieces]
+    judged += [columns(stance.run(intake.finish())), columns(stance.finish())]
+    stamp_ns, resting = (np.concatenate(column) for column in zip(*judged, strict=True))
+    return durations_s(stamp_ns, resting)[1:-1]
+
+
+def columns(judged: StanceBlock) -> tuple[Stamps, Flags]:
+    """Return what must be kept of every sample of a recording."""
+    return judged.imu.stamp_ns, judged.stance
 
 
 def durations_s(stamp_ns: Stamps, resting: Flags) -> Floats:

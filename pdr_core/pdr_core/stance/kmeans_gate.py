@@ -21,7 +21,7 @@ from pdr_core.params import DetectorParams
 from pdr_core.records import Flags, Floats, Stamps
 from pdr_core.stance.time_gate import TimeGate, after_gap, lasts
 
-CAP_S = 1.0
+SHORTEST_S, CAP_S = 0.001, 1.0
 APART = 3.0
 FEWEST, MOST = 8, 100  # phases that are looked at
 NOT_ENDED = -1
@@ -87,7 +87,7 @@ def shortest_true_s(phases_s: Floats) -> float:
     """Return the duration [s] between the false and the true ones of some phases, (n,) [s]; 0 where all are true."""
     if len(phases_s) < FEWEST:
         return 0.0
-    logs = np.log(np.clip(phases_s, 1e-3, CAP_S))
+    logs = np.log(np.clip(phases_s, SHORTEST_S, CAP_S))
     ends = np.array([[logs.min()], [logs.max()]])
     if ends[1, 0] - ends[0, 0] < np.log(APART):
         return 0.0

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from pdr_core.params import DetectorParams, PlaceParams, SimulationParams, StanceParams
-from pdr_core.records import joined, part
+from pdr_core.records import joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
 from pdr_core.stance.gait_phases import (
@@ -86,3 +86,51 @@ def test_the_dips_of_figure_3_deceive_a_detector_but_not_the_gate(detector):
     assert not found["gait_phases"][dips].any()
     inside = np.convolve(walk.motion.stance, np.ones(9), "same") == 9
     np.testing.assert_array_equal(found["gait_phases"][inside], found["none"][inside])
+
+
+def stage(gate="gait_phases", phases_s=None):
+    return StanceDetection(StanceParams(detector="glrt", time_gate=gate), PlaceParams(), phases_s=phases_s)
+
+
+def test_a_stream_that_ends_in_a_dip_loses_no_sample():
+    walk, dips = with_dips()
+    cut = part(walk.imu, 0, int(dips[8]) + 4)
+    gated = stage()
+    first = gated.run(cut)
+    assert length(first) < length(cut) - 8  # what waits is more than half a window
+    np.testing.assert_array_equal(joined([first, gated.finish()]).imu.stamp_ns, cut.stamp_ns)
+
+
+def test_a_dip_is_judged_within_the_latency():
+    walk, _ = with_dips()
+    gated, known, waited_ns = stage(), 0, 0
+    for i in range(length(walk.imu)):
+        known += length(gated.run(part(walk.imu, i, i + 1)))
+        if known <= i:
+            waited_ns = max(waited_ns, walk.imu.stamp_ns[i] - walk.imu.stamp_ns[known])
+    assert stage("none").latency_s * 1e9 + 5 * MS < waited_ns < gated.latency_s * 1e9 + 5 * MS
+
+
+def test_a_clock_that_is_set_back_in_a_swing_begins_anew():
+    walk, dips = with_dips()
+    at = int(dips[0]) - 10
+    back = walk.imu._replace(stamp_ns=walk.imu.stamp_ns.copy())
+    back.stamp_ns[at:] -= 10**12
+    gated, fresh = stage(), stage()
+    found = joined([gated.run(back), gated.finish()]).stance
+    alone = joined([fresh.run(part(back, at)), fresh.finish()]).stance
+    np.testing.assert_array_equal(found[at:], alone)
+    assert alone[10:22].any()  # nobody knows that the foot is in a swing
+
+
+@pytest.mark.parametrize("gate", ["gait_phases", "kmeans"])
+@pytest.mark.parametrize("after", range(-6, 18, 3))
+def test_a_pause_of_the_stream_in_a_dip_and_a_gap_in_a_recording_are_the_same(gate, after):
+    walk, dips = with_dips()
+    cut = int(dips[0]) + after
+    late = part(walk.imu, cut + 200)
+    late = late._replace(stamp_ns=late.stamp_ns + 500 * MS)
+    live, offline = (stage(gate, np.array([0.03, 0.4] * 10)) for _ in range(2))
+    heard = joined([live.run(part(walk.imu, 0, cut)), live.finish(), live.run(late), live.finish()])
+    read = joined([offline.run(part(walk.imu, 0, cut)), offline.run(late), offline.finish()])
+    np.testing.assert_array_equal(heard.stance, read.stance)

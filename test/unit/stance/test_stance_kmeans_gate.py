@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pdr_core.params import DetectorParams
-from pdr_core.records import joined, part
+from pdr_core.records import joined, length, part
 from pdr_core.stance.kmeans_gate import KmeansGate, shortest_true_s
 from support.verdicts import span_of, verdicts
 
@@ -80,10 +80,24 @@ def test_what_it_learns_does_not_depend_on_where_the_stream_is_cut(cuts):
     np.testing.assert_array_equal(found.imu.stamp_ns, BLOCK.imu.stamp_ns)
 
 
+def test_the_first_rest_is_no_cluster_of_its_own():
+    spans = (LONG_REST, *((0.2, False), (0.05, True)) * 20)  # tapping: short stances in quick succession
+    np.testing.assert_array_equal(gated(*spans), verdicts(*spans).stance)
+
+
+def test_a_phase_that_is_too_short_is_known_within_the_latency():
+    gate, known, waited_ns = KmeansGate(DetectorParams()), 0, 0
+    for i in range(len(BLOCK.stance)):
+        known += length(gate.run(part(BLOCK, i, i + 1), final=False))
+        if known <= i:
+            waited_ns = max(waited_ns, BLOCK.imu.stamp_ns[i] - BLOCK.imu.stamp_ns[known])
+    assert 0 < waited_ns <= gate.latency_s * 1e9
+
+
 def test_a_phase_that_a_gap_cuts_short_teaches_nothing():
     gate, at = KmeansGate(DetectorParams()), 10**18
-    for _ in range(12):
-        piece = verdicts((0.02, True), start_ns=at)
+    for seconds in (0.02, 0.4) * 8:
+        piece = verdicts((0.05, False), (seconds, True), start_ns=at)
         gate.run(piece, final=False)
         at = int(piece.imu.stamp_ns[-1]) + 500_000_000
     spans = ((0.4, True), (0.2, False), DIP, (0.2, False))
