@@ -7,7 +7,19 @@ def command_line() -> None:
     """Read the command line and do what it says; the imports stand here, where a Ctrl-C is answered."""
     import typer
 
-    from pdr_bringup_scripts.commands import bench, convert, demo, evaluate, live, params, replay, run, simulate, test
+    from pdr_bringup_scripts.commands import (
+        bench,
+        compare,
+        convert,
+        demo,
+        evaluate,
+        live,
+        params,
+        replay,
+        run,
+        simulate,
+        test,
+    )
 
     app = typer.Typer(
         help=__doc__,
@@ -17,7 +29,7 @@ def command_line() -> None:
         context_settings={"help_option_names": ["-h", "--help"]},
         pretty_exceptions_enable=False,
     )
-    for module in (demo, test, live, run, replay, simulate, convert, evaluate, bench, params):
+    for module in (demo, test, live, run, replay, simulate, convert, evaluate, compare, bench, params):
         name = module.__name__.rsplit(".", 1)[-1]
         allowed = {"allow_extra_args": True, "ignore_unknown_options": True} if name == "test" else {}
         app.command(name, context_settings=allowed)(getattr(module, name))

@@ -12,7 +12,7 @@ from pdr_core.bench.consistency import Consistency
 from pdr_core.bench.mechanisation import MechanisationError
 from pdr_core.bench.table_1 import Table1Result
 
-WIDTH = 120  # where no terminal says its own
+WIDTH = 120
 
 
 def as_json(errors: list[MechanisationError], table_1: list[Table1Result], found: list[Consistency]) -> str:
@@ -32,16 +32,19 @@ def show(errors: list[MechanisationError], table_1: list[Table1Result], found: l
         out.print(one)
 
 
-def console() -> Console:
-    """Return where tables are printed."""
-    return Console(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
+def console(width: int = WIDTH) -> Console:
+    """Return where tables are printed; `width` where no terminal says its own."""
+    return Console(width=None if sys.stdout.isatty() else width, highlight=False)
 
 
-def table(title: str, *heads: str) -> Table:
-    """Return an empty table, the numbers to the right."""
+def table(title: str, *heads: str, names: int = 1) -> Table:
+    """Return an empty table, names in the first columns, numbers to the right."""
     empty = Table(title=title, box=SIMPLE, title_justify="left")
     for i, head in enumerate(heads):
-        empty.add_column(head, justify="right" if i else "left", no_wrap=True)
+        if i < names:
+            empty.add_column(head, no_wrap=True)
+        else:
+            empty.add_column(head, justify="right", no_wrap=True, min_width=len(head))
     return empty
 
 

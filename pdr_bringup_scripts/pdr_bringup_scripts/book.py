@@ -11,7 +11,7 @@ from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.report import write_report
 from pdr_core.evaluation.result import Result
-from pdr_core.evaluation.score import Scorer
+from pdr_core.evaluation.score import Scorer, start_of_steps_m
 from pdr_core.evaluation.trace import Trace
 from pdr_core.params import Params, params_as_mapping
 from pdr_core.pipeline import FootOutput
@@ -64,8 +64,7 @@ class Book:
 
     @property
     def _start_position_m(self) -> Floats:
-        first = self.steps[0] if self.steps else None
-        return first.position_m - first.displacement_m if first else self._scorer.start_position_m
+        return start_of_steps_m(self.steps, self._scorer.start_position_m)
 
     def close(self, pipeline: str, params: Params, samples: int, seconds: float, notices: list[Notice]) -> Result:
         """Return the result and write the files; Problem if there was no usable sample."""

@@ -22,9 +22,43 @@ class Terminal:
         with Console(stderr=True).status(title) as status:
             yield lambda text: status.update(f"{title}: {text}")
 
+    @contextmanager
+    def bar(self, title: str, steps: int) -> Iterator["Bar"]:
+        """Give a bar of so many steps."""
+        if not sys.stderr.isatty():
+            yield Bar(plain_lines(title), steps)
+            return
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+        text = TextColumn("{task.description}")
+        columns = (text, BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        with Progress(*columns, console=Console(stderr=True), transient=True) as live:
+            task = live.add_task(title, total=steps)
+            yield Bar(lambda what: live.update(task, description=what), steps, lambda: live.advance(task))
+
     def say(self, text: str) -> None:
         """Say something beside the result."""
         print(text, file=sys.stderr, flush=True)
+
+
+class Bar:
+    """Work of known length."""
+
+    def __init__(self, show: Callable[[str], None], steps: int, moved: Callable[[], None] = lambda: None) -> None:
+        self._show = show
+        self._steps = steps
+        self._moved = moved
+        self._done = 0
+
+    def show(self, what: str) -> None:
+        """Say what is under way."""
+        self._show(f"{self._done + 1} of {self._steps}, {what}")
+
+    def advance(self) -> None:
+        """One step is done."""
+        self._done += 1
+        self._moved()
 
 
 def plain_lines(title: str) -> Callable[[str], None]:

@@ -10,29 +10,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from pdr_core.params import Params, params_from_mapping
+from pdr_core.bench.ablation import FULL, OFF, without
+from pdr_core.params import Params
 from support.held_recordings import TILES, VICON, XIO, Held, ate2_m, held, results
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "navigation.md"
-FULL = "nothing"
-OFF = {
-    FULL: {},
-    "relative threshold: fixed at 30": {"stance": {"relative_share": 0.0}},
-    "relative threshold: fixed at 2000": {"stance": {"relative_share": 0.0, "threshold_min": 2000.0}},
-    "noise of the sensor": {"stance": {"quiet_max": 0.0}},
-    "confidence": {"stance": {"sd_per_root_mps": 0.0}},
-    "rolling contact": {"filter": {"contact_height_m": 0.0}},
-    "Huber's weight": {"filter": {"huber": 1e9}},
-    "contradiction": {"filter": {"gate": 1e9}},
-    "noise of change": {"intake": {"change_noise": 0.0}},
-    "clip repair": {"intake": {"clip_smallest_radps": 1e6}},
-    "gyro bias: taken as 0": {"filter": {"initial_gyro_bias_sd_radps": 1e-9}},
-    "all of these, fixed at 2000": {
-        "stance": {"relative_share": 0.0, "threshold_min": 2000.0, "quiet_max": 0.0, "sd_per_root_mps": 0.0},
-        "filter": {"contact_height_m": 0.0, "huber": 1e9, "gate": 1e9, "initial_gyro_bias_sd_radps": 1e-9},
-        "intake": {"change_noise": 0.0, "clip_smallest_radps": 1e6},
-    },
-}
 
 
 class Row(NamedTuple):
@@ -80,7 +62,7 @@ def line(name: str, row: Row) -> str:
 def table(recordings: Path) -> dict[str, Row]:
     walks = {folder: held(recordings, folder) for folder in (VICON, TILES, XIO)}
     assert [len(walks[folder]) for folder in (VICON, TILES, XIO)] == [28, 5, 1]
-    rows = {name: measured(walks, params_from_mapping(off)) for name, off in OFF.items()}
+    rows = {name: measured(walks, without(Params(), name)) for name in OFF}
     print("", *(line(name, row) for name, row in rows.items()), sep="\n")
     return rows
 

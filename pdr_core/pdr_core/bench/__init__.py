@@ -1,1 +1,1 @@
-"""What `pdr bench` prints: the parts of the suite against the simulator, as tables of plain records."""
+"""What `pdr bench` and `pdr compare` measure: the suite against its simulator, and its detectors on recordings."""

@@ -20,8 +20,8 @@ def stance(trace: Trace) -> "Figure":
     fig = style.figure(style.TIME, "Detector statistic [-]")
     outline = np.array([0.0, 1.0, 1.0, 0.0, 0.0, np.nan])
     style.area(fig, "Stance", edges_s[:, [0, 0, 1, 1, 0, 0]].ravel(), np.tile(outline, len(edges_s)), style.PALE_GREEN)
-    style.line(fig, "Statistic", points.time_s, _positive(points.statistic), style.BLUE, unit="", width=1.2)
-    style.line(fig, "Threshold", points.time_s, _positive(points.threshold), style.ORANGE, unit="", dash="dash")
+    style.line(fig, "Statistic", points.time_s, style.positive(points.statistic), style.BLUE, unit="", width=1.2)
+    style.line(fig, "Threshold", points.time_s, style.positive(points.threshold), style.ORANGE, unit="", dash="dash")
     for logarithmic in fig.data[1:]:
         logarithmic.update(yaxis="y2", hovertemplate="%{y:.3~g}")
     fig.update_layout(
@@ -105,8 +105,3 @@ def _add_band(fig: "Figure", time_s: Floats, low: Floats, high: Floats) -> None:
     style.area(
         fig, "Uncertainty (1 σ)", there_and_back_s, np.concatenate([high[known], low[known][::-1]]), style.PALE_BLUE
     )
-
-
-def _positive(values: Floats) -> Floats:
-    """Return the values, NaN where a logarithm has none."""
-    return np.where(values > 0.0, values, np.nan)

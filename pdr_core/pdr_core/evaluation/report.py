@@ -1,11 +1,11 @@
 """The report: one HTML file that needs nothing else, neither a network nor a folder beside it."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from pdr_core.evaluation import plots
+from pdr_core.evaluation.page import page
 from pdr_core.evaluation.plan import plan
 from pdr_core.evaluation.result import LEVELS, Result, in_words
 from pdr_core.evaluation.score import TruthView
@@ -39,24 +39,14 @@ def write_report(
 
 def report(result: Result, trace: Trace, steps: Sequence[StepEvent], truth_view: TruthView | None) -> str:
     """Return the page as text."""
-    from jinja2 import Environment
-    from plotly.offline import get_plotlyjs
-
-    template = files("pdr_core.evaluation").joinpath("report.html.j2").read_text(encoding="utf-8")
-    pictures = list(_pictures(trace, steps, truth_view)) if len(trace.points.time_s) else []
-    return (
-        Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-        .from_string(template)
-        .render(
-            result=result,
-            words=in_words(result),
-            cards=_cards(result),
-            pictures=pictures,
-            notices=[(LEVELS[n.level], n.text, counted(n.count, "time")) for n in result.notices],
-            config=list(_rows(result.config)),
-            length_of_run=duration(result.duration_s),
-            plotly_js=get_plotlyjs(),
-        )
+    return page(
+        "report.html.j2",
+        result=result,
+        words=in_words(result),
+        cards=_cards(result),
+        pictures=list(_pictures(trace, steps, truth_view)) if len(trace.points.time_s) else [],
+        notices=[(LEVELS[n.level], n.text, counted(n.count, "time")) for n in result.notices],
+        config=list(_rows(result.config)),
     )
 
 

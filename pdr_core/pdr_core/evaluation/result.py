@@ -49,7 +49,7 @@ class Result:
         content["notices"] = [_notice(notice) for notice in self.notices]
         content["config"] = self.config
         content["truth"] = _truth(self.truth) if self.truth else None
-        return _plain(content | {"version": self.version, "commit": self.commit})
+        return plain(content | {"version": self.version, "commit": self.commit})
 
     def to_json(self) -> str:
         """Return the result as JSON text. Raise TypeError if the configuration holds something JSON cannot."""
@@ -123,14 +123,14 @@ def _truth(score: TruthScore) -> dict[str, Any]:
     return {"kind": score.kind.value} | {name: getattr(score, name) for name in names}
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """Return the value in plain types, None for a float that JSON cannot say."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if isinstance(value, (np.ndarray, np.generic)):
-        return _plain(value.tolist())
+        return plain(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

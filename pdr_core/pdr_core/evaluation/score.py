@@ -106,6 +106,11 @@ class Scorer:
         return truth.stamp_ns[rows], self._resampled.position_m[rows], truth_m
 
 
+def start_of_steps_m(steps: Sequence[StepEvent], otherwise_m: Floats) -> Floats:
+    """Return where the foot stood before step 1, (3,); `otherwise_m` where there is no step."""
+    return steps[0].position_m - steps[0].displacement_m if steps else otherwise_m
+
+
 def ascending(stamp_ns: Stamps, before_ns: int) -> Flags:
     """Return which stamps, (n,), are later than `before_ns` and all before them."""
     latest_ns = np.maximum.accumulate(np.concatenate([[before_ns], stamp_ns]))

@@ -1,7 +1,9 @@
 """One look for all figures: colours that colour-blind people can tell apart (Okabe and Ito 2008) on white."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from pdr_core.records import Floats
 
@@ -57,20 +59,29 @@ def line(
     unit: str = "m",
     dash: str = "solid",
     width: float = 2,
+    digits: int = 6,
+    **more: Any,
 ) -> None:
     """Add a line through points (n,), thinned to what a screen can show; what is not finite leaves a gap."""
     every = slice(None, None, max(1, math.ceil(len(x) / POINTS)))
     look = {"color": colour, "width": width, "dash": dash}
     hover = f"%{{y:.3~f}} {unit}"
-    fig.add_scatter(x=listed(x[every]), y=listed(y[every]), name=name, mode="lines", line=look, hovertemplate=hover)
+    fig.add_scatter(
+        x=listed(x[every]), y=listed(y[every], digits), name=name, mode="lines", line=look, hovertemplate=hover, **more
+    )
 
 
-def area(fig: "Figure", name: str, x: Floats, y: Floats, colour: str, **more: str) -> None:
+def area(fig: "Figure", name: str, x: Floats, y: Floats, colour: str, **more: Any) -> None:
     """Add filled outlines, (n,), that NaN separates."""
     look = {"mode": "lines", "line": {"width": 0}, "fill": "toself", "fillcolor": colour, "hoverinfo": "skip"}
     fig.add_scatter(x=listed(x), y=listed(y), name=name, **look, **more)
 
 
-def listed(values: Floats) -> list[float | None]:
-    """Return values, (n,), as a short list: six digits each, None where not finite."""
-    return [float(f"{value:.6g}") if math.isfinite(value) else None for value in values.tolist()]
+def listed(values: Floats, digits: int = 6) -> list[float | None]:
+    """Return values, (n,), as a short list: so many digits each, None where not finite."""
+    return [float(f"{value:.{digits}g}") if math.isfinite(value) else None for value in values.tolist()]
+
+
+def positive(values: Floats) -> Floats:
+    """Return the values, (n,), NaN where a logarithm has none."""
+    return np.where(values > 0.0, values, np.nan)

@@ -31,3 +31,8 @@ def duration(seconds: float) -> str:
     if whole < 60:
         return f"{whole} s"
     return f"{whole // 60} min {whole % 60} s" if whole < 3600 else f"{whole // 3600} h {whole % 3600 // 60} min"
+
+
+def spoken(name: str) -> str:
+    """Return a name of the code, `gait_phases`, as a person writes it."""
+    return name.replace("_", " ")

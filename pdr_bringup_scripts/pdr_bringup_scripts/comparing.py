@@ -1,0 +1,113 @@
+"""Studies recordings one after the other; one that cannot be read does not stop the others."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from pdr_bringup_scripts.problems import Problem
+from pdr_bringup_scripts.provenance import VERSION, commit
+from pdr_bringup_scripts.terminal import Bar, Terminal
+from pdr_core.bench.detectors import DETECTORS, GATES, study
+from pdr_core.bench.trial import NoSamples, Walk
+from pdr_core.evaluation.detector_page import detector_page
+from pdr_core.evaluation.detector_study import DetectorStudy
+from pdr_core.evaluation.detector_tables import as_csv, as_json
+from pdr_core.params import Params
+from pdr_core.recording import RecordingError, Session, open_recording
+from pdr_core.warmup import warm_up
+
+FILES = "compare.html, compare.csv, compare.json"
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is compared, and whether figures alone are wanted or pictures too."""
+
+    params: Params
+    detectors: Sequence[str]
+    gates: Sequence[str]
+    deep: bool
+    columns: Path | None
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What came of it."""
+
+    studies: list[DetectorStudy] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)  # one sentence for each recording that is missing
+    warnings: list[str] = field(default_factory=list)  # what could not be read of the others
+
+
+def chosen_detectors(text: str) -> list[str]:
+    """Return the detectors of a list with commas; Problem if one does not exist."""
+    return chosen(text, DETECTORS, "--detectors")
+
+
+def chosen_gates(text: str) -> list[str]:
+    """Return the time gates of a list with commas; Problem if one does not exist."""
+    return chosen(text, GATES, "--gates")
+
+
+def chosen(text: str, known: Sequence[str], option: str) -> list[str]:
+    """Return the names of a list, each once, or all that are known."""
+    names = list(dict.fromkeys(name.strip() for name in text.split(",")))
+    if names == ["all"]:
+        return list(known)
+    for name in names:
+        if name not in known:
+            raise Problem(f"{option} {name}: there is none of that name; choose from all, {', '.join(known)}")
+    return names
+
+
+def compared(paths: Sequence[Path], job: Job, terminal: Terminal) -> Compared:
+    """Study every sensor of every recording."""
+    warm_up()
+    done = Compared()
+    with terminal.bar("Comparing", len(paths)) as bar:
+        for path, name in zip(paths, names(paths), strict=True):
+            try:
+                session = open_recording(path, column_map=job.columns)
+                for walk in walks(session, name):
+                    done.studies.append(studied(walk, job, bar))
+                done.warnings.extend(f"Warning: {name}: {notice.text.rstrip('.')}." for notice in session.notices)
+            except (NoSamples, RecordingError) as problem:
+                done.problems.append(str(problem))
+            except OSError as error:
+                done.problems.append(f"{error.filename or path}: {error.strerror or error}")
+            bar.advance()
+    return done
+
+
+def names(paths: Sequence[Path]) -> list[str]:
+    """Return the shortest name of each path that tells it from the others: its own, or all of it."""
+    short = [path.stem for path in paths]
+    return [stem if short.count(stem) == 1 else str(path) for stem, path in zip(short, paths, strict=True)]
+
+
+def walks(session: Session, name: str) -> Iterator[Walk]:
+    """Read the sensors of a recording, each once, whole."""
+    for sensor in session.sensors.values():
+        own_name = name if len(session.sensors) == 1 else f"{name} {sensor.name}"
+        yield Walk(own_name, list(sensor.pieces()), sensor.truth)
+
+
+def studied(walk: Walk, job: Job, bar: Bar) -> DetectorStudy:
+    """Study one sensor."""
+    return study(walk, job.params, job.detectors, job.gates, job.deep, lambda what: bar.show(f"{walk.name}: {what}"))
+
+
+def write_files(out: Path, studies: Sequence[DetectorStudy], terminal: Terminal) -> None:
+    """Write the page and the figures into a folder that exists."""
+    page = detector_page(studies, VERSION, commit())
+    for name, text in zip(FILES.split(", "), (page, as_csv(studies), as_json(studies) + "\n"), strict=True):
+        (out / name).write_text(text, encoding="utf-8")
+    terminal.say(f"Written to {out}: {FILES}")
+
+
+def tell(done: Compared, terminal: Terminal) -> None:
+    """Say what could not be read of some recordings; Problem, after all else, if others could not be read at all."""
+    for warning in done.warnings:
+        terminal.say(warning)
+    if done.problems:
+        raise Problem("\npdr: ".join(done.problems))

@@ -1,0 +1,99 @@
+"""`pdr compare`, as it is typed."""
+
+import csv
+import json
+
+import pytest
+
+from support.processes import check_refused, pdr
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Two simulated walks, and a file that is none."""
+    folder = tmp_path_factory.mktemp("compare")
+    for seed in (1, 2):
+        run = pdr("simulate", "--length", 12, "--rate", 100, "--seed", seed, "--out", folder / f"walk{seed}.csv")
+        assert run.returncode == 0, run.stderr
+    (folder / "broken.csv").write_text("this is no recording\n")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def figures(all_of_them, folder):  # noqa: ARG001
+    return json.loads((folder / "out" / "compare.json").read_text())["figures"]
+
+
+@pytest.fixture(scope="module")
+def all_of_them(folder):
+    walks = [folder / f"walk{seed}.csv" for seed in (1, 2)]
+    run = pdr("compare", "--detectors", "all", *walks, "--out", folder / "out", cwd=folder)
+    assert run.returncode == 0, run.stderr
+    return run
+
+
+def test_a_row_for_each_recording_and_detector(all_of_them):
+    rows = [line.split() for line in all_of_them.stdout.splitlines()]
+    found = {(row[0], row[1]) for row in rows if len(row) == 6 and row[0] in ("walk1", "walk2")}
+    assert {detector for _, detector in found} >= {"adaptive", "glrt", "three_conditions"}
+    assert len(found) == 14
+    assert "\x1b" not in all_of_them.stdout
+    assert "…" not in all_of_them.stdout
+    for text in ("Over all recordings", "median m", "switched off", "rolling contact"):
+        assert text in all_of_them.stdout
+
+
+def test_page_and_figures_are_written(all_of_them, figures, folder):
+    assert all_of_them.stderr.endswith(f"Written to {folder / 'out'}: compare.html, compare.csv, compare.json\n")
+    with (folder / "out" / "compare.csv").open() as file:
+        assert len(list(csv.DictReader(file))) == len(figures) == 14
+    page = (folder / "out" / "compare.html").read_text()
+    assert page.count('<script type="application/json">') == 4
+    assert 4_000_000 < len(page) < 8_000_000
+
+
+def test_the_default_comes_out_as_in_a_run(figures, folder):
+    run = json.loads(pdr("run", folder / "walk1.csv", "--json").stdout)
+    (row,) = (row for row in figures if (row["recording"], row["detector"]) == ("walk1", "adaptive"))
+    assert (row["ate2_m"], row["ate3_m"]) == (run["truth"]["ate2_m"], run["truth"]["ate3_m"])
+    assert row["strides"] == run["strides"]
+
+
+def test_a_broken_file_does_not_lose_the_others(folder):
+    names = ("broken.csv", "walk1.csv", "gone.mcap")
+    run = pdr("compare", "--detectors", "glrt", "--gates", "none,kmeans", "--json", *names, cwd=folder)
+    assert run.returncode == 2
+    told = run.stderr.splitlines()
+    assert [line.startswith("pdr: ") for line in told] == [True, True]
+    assert ["broken.csv" in told[0], "gone.mcap" in told[1]] == [True, True]
+    found = json.loads(run.stdout)["figures"]
+    assert [(row["recording"], row["gate"]) for row in found] == [("walk1", "none"), ("walk1", "kmeans")]
+
+
+@pytest.mark.parametrize("option", ["--detectors", "--gates"])
+def test_an_unknown_name_is_one_sentence(folder, option):
+    check_refused(pdr("compare", option, "magic", "walk1.csv", cwd=folder), f"{option} magic", "choose from all, ")
+
+
+def test_nothing_that_can_be_read_is_one_sentence(folder):
+    check_refused(pdr("compare", "broken.csv", cwd=folder), "broken.csv")
+
+
+def test_what_could_not_be_read_is_a_warning(folder, tmp_path):
+    assert pdr("convert", folder / "walk1.csv", tmp_path / "whole.mcap").returncode == 0
+    whole = (tmp_path / "whole.mcap").read_bytes()
+    (tmp_path / "cut.mcap").write_bytes(whole[: len(whole) // 2])
+    run = pdr("compare", "--detectors", "glrt", tmp_path / "cut.mcap")
+    assert run.returncode == 0
+    assert run.stderr.startswith("Warning: cut: cut.mcap is damaged: ")
+    assert "glrt" in run.stdout
+
+
+def test_recordings_of_the_same_name_keep_their_folders(folder, tmp_path):
+    (tmp_path / "walk1.csv").write_bytes((folder / "walk1.csv").read_bytes())
+    for companion in folder.glob("walk1*"):
+        (tmp_path / companion.name).write_bytes(companion.read_bytes())
+    paths = [folder / "walk1.csv", tmp_path / "walk1.csv"]
+    run = pdr("compare", "--detectors", "glrt", *paths)
+    assert run.returncode == 0, run.stderr
+    assert all(str(path) in run.stdout for path in paths)
