@@ -13,7 +13,7 @@ from pdr_core.eskf.step_events import roam, stance_is_over, stand
 from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, Vector, difference, row
-from pdr_core.records import NavBlock, StanceBlock
+from pdr_core.records import Floats, NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
@@ -53,10 +53,26 @@ def sample(block: StanceBlock, i: int) -> Sample:
 @compiled
 def sample_step(now: Sample, s: Settings, state: FilterState) -> None:
     """Take a sample into the estimate."""
+    predict(now, s, state, state.cross)
+    update(now, s, state)
+
+
+@compiled
+def predict(now: Sample, s: Settings, state: FilterState, cross: Floats) -> None:
+    """Move the estimate to the time of a sample; `cross` (15, m), covariances with anything else, goes along."""
+    state.held_m[:] = state.position_m
+    if not state.aligning:
+        propagate(now, s, state, cross)
+
+
+@compiled
+def update(now: Sample, s: Settings, state: FilterState) -> None:
+    """Correct the estimate by what a sample tells beside its interval."""
     if state.aligning:
         align(now.stamp_ns, now.force_mps2, now.rate_radps, s, state)
     else:
-        propagate(now, s, state)
+        if state.adrift:
+            hold(state)
         if now.rest_sd_radps > 0.0:
             zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
         roam(state)
@@ -83,14 +99,14 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
 
 
 @compiled
-def propagate(now: Sample, s: Settings, state: FilterState) -> None:
+def propagate(now: Sample, s: Settings, state: FilterState, cross: Floats) -> None:
     """Move estimate and covariance from the last sample to this one."""
     dt_ns = now.stamp_ns - state.last_ns
     dt_s = dt_ns * 1e-9
     if dt_ns <= 0 or dt_ns > GAP_NS or gyro_off(now.gyro_sd_radps, state):
         if dt_ns < 0:
             turn_back(dt_ns, state)
-        coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
+        coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state, cross)
         return
     state.coasting = False
     force_before = difference(at_start(state.last_force_mps2, now.force_mps2, s.means), state.accel_bias_mps2)
@@ -100,19 +116,22 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
         difference(now.rate_radps, state.gyro_bias_radps),
         dt_s,
     )
-    held_m = state.position_m[0], state.position_m[1], state.position_m[2]
     R_before, R_after = advance(
         state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
     k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
     q = noise(now.accel_sd_mps2, now.gyro_sd_radps, dt_s, s.process)
     propagate_covariance(state.P, k, q)
-    carry(k, state.cross)
+    carry(k, cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
-    if state.adrift:
-        state.velocity_mps[:] = 0.0
-        state.position_m[:] = held_m
+
+
+@compiled
+def hold(state: FilterState) -> None:
+    """Stay where the last sample was: nobody knows the velocity and the tilt in the middle of a swing."""
+    state.velocity_mps[:] = 0.0
+    state.position_m[:] = state.held_m
 
 
 @compiled
@@ -137,11 +156,11 @@ def turn_back(dt_ns: int, state: FilterState) -> None:
 
 
 @compiled
-def coast(dt_s: float, s: Settings, state: FilterState) -> None:
+def coast(dt_s: float, s: Settings, state: FilterState, cross: Floats) -> None:
     """Cross a gap: forget the velocity, trust everything less, and hold the position until the foot stands again."""
     state.adrift = True
     state.velocity_mps[:] = 0.0
-    cross_gap(state.P, state.cross, dt_s, s.process)
+    cross_gap(state.P, cross, dt_s, s.process)
     state.gaps += not state.coasting
     state.coasting = True
 
