@@ -12,6 +12,7 @@ def run(
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
+    smooth: bool = typer.Option(False, "--smooth", help="let every estimate know the whole recording: go back over it"),
 ) -> None:
     """Estimate the walk in a recording, offline and at full speed.
 
@@ -27,7 +28,7 @@ def run(
 
     chosen = load_params(params) if params else Params()
     session = open_recording(recording, column_map=columns)
-    result = run_recording(session, chosen, sensor, out, Terminal())
+    result = run_recording(session, chosen, sensor, out, Terminal(), smooth)
     print(result.to_json() if json else in_words(result))
     if out and not json:
         print(f"Written to {out}: {FILES}")

@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pdr_core.eskf.error_state import SIZE
+from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, SIZE
 from pdr_core.eskf.navigate import predict, sample, update
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import LAYOUT, FilterState
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.quaternion import conjugate, multiply, to_rotation_vector
 from pdr_core.records import Floats, StanceBlock, length
 
 NOMINAL = 16  # position, velocity, quaternion, accelerometer bias, gyro bias
@@ -23,7 +24,7 @@ class Tape(NamedTuple):
 
     states: NDArray[np.void]  # (n + 1,) before the first sample and after each
     predicted: Floats  # (n, 16) the estimate of each sample before its corrections
-    P_predicted: Floats  # (n, 15, 15)  # noqa: N815  its covariance
+    P_predicted: Floats  # noqa: N815  (n, 15, 15) its covariance
     cross: Floats  # (n, 15, 15) covariance of its errors with those after the sample before
 
 
@@ -50,7 +51,7 @@ def record(block: StanceBlock, s: Settings, state: FilterState, tape: Tape) -> N
         state.doubt[:] = 0.0
         update(now, s, state)
         for j in range(SIZE):
-            tape.P_predicted[i, j, j] += state.doubt[j]
+            tape.P_predicted[i, j, j] += state.doubt[j]  # what was doubted had gone wrong before
         tape.states[i + 1] = state
 
 
@@ -62,3 +63,13 @@ def note_nominal(state: FilterState, out: Floats) -> None:
     out[6:10] = state.quat_xyzw
     out[10:13] = state.accel_bias_mps2
     out[13:16] = state.gyro_bias_radps
+
+
+@compiled
+def error_between(before: Floats, after: Floats) -> Floats:
+    """Return the error (15,) of an estimate (16,) beside a better one."""
+    error = np.empty(SIZE)
+    error[:ATTITUDE] = after[:6] - before[:6]
+    error[ATTITUDE:ACCEL_BIAS] = to_rotation_vector(multiply(after[6:10], conjugate(before[6:10])))
+    error[ACCEL_BIAS:] = after[10:] - before[10:]
+    return error

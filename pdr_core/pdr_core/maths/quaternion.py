@@ -25,6 +25,12 @@ def multiply(p: Quaternion, q: Quaternion) -> Four:
 
 
 @compiled
+def conjugate(q: Quaternion) -> Four:
+    """Return the inverse of a unit quaternion."""
+    return -q[0], -q[1], -q[2], q[3]
+
+
+@compiled
 def from_rotation_vector(angle_rad: Vector) -> Four:
     """Return the quaternion of a rotation vector [rad]: the exponential map, exact also near zero."""
     norm = np.sqrt(angle_rad[0] ** 2 + angle_rad[1] ** 2 + angle_rad[2] ** 2)

@@ -1,5 +1,6 @@
 """Where stages meet: the same chain that the nodes form live."""
 
 from pdr_core.pipeline.foot_inertial import FootInertial, FootOutput
+from pdr_core.pipeline.smoothed import SmoothedFoot
 
-__all__ = ["FootInertial", "FootOutput"]
+__all__ = ["FootInertial", "FootOutput", "SmoothedFoot"]
