@@ -9,7 +9,7 @@ from typing import TypeVar
 from pdr_bringup_scripts.book import Book
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
-from pdr_core.evaluation.result import Result, SensorsResult
+from pdr_core.evaluation.result import SMOOTHED, Result, SensorsResult
 from pdr_core.params import Params
 from pdr_core.pipeline import FootInertial, SmoothedFoot
 from pdr_core.recording import Sensor, Session
@@ -18,7 +18,6 @@ from pdr_core.warmup import warm_up
 
 T = TypeVar("T")
 PIPELINE = "foot_inertial"
-SMOOTHED = f"{PIPELINE}, smoothed"
 
 
 def run_recording(
@@ -108,4 +107,4 @@ def run_sensor_smoothed(
         outputs = pipeline.finish(lambda share: show(f"{share:.0%}"))
         while output := watch(next, outputs, None):
             book.keep(output)
-        return book.close(SMOOTHED, params, samples, watch.seconds, pipeline.notices)
+        return book.close(PIPELINE + SMOOTHED, params, samples, watch.seconds, pipeline.notices)

@@ -6,14 +6,14 @@ from pdr_core.conventions import GAP_NS
 from pdr_core.eskf.align import align
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
-from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
+from pdr_core.eskf.process import NO_TIME, Link, carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
 from pdr_core.eskf.updates import level, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, Vector, difference, row
-from pdr_core.records import Floats, NavBlock, StanceBlock
+from pdr_core.records import NavBlock, StanceBlock
 from pdr_core.strapdown.mechanisation import advance, mean_rate
 
 UNKNOWN_GAP_S = 1.0  # where the clock has jumped back, nobody knows how much time has passed
@@ -53,16 +53,18 @@ def sample(block: StanceBlock, i: int) -> Sample:
 @compiled
 def sample_step(now: Sample, s: Settings, state: FilterState) -> None:
     """Take a sample into the estimate."""
-    predict(now, s, state, state.cross)
+    predict(now, s, state)
     update(now, s, state)
 
 
 @compiled
-def predict(now: Sample, s: Settings, state: FilterState, cross: Floats) -> None:
-    """Move the estimate to the time of a sample; `cross` (15, m), covariances with anything else, goes along."""
-    state.held_m[:] = state.position_m
-    if not state.aligning:
-        propagate(now, s, state, cross)
+def predict(now: Sample, s: Settings, state: FilterState) -> Link:
+    """Move the estimate to the time of a sample; return the interval as the errors see it, or `NO_TIME`."""
+    for i in range(3):
+        state.held_m[i] = state.position_m[i]
+    if state.aligning:
+        return NO_TIME
+    return propagate(now, s, state)
 
 
 @compiled
@@ -99,15 +101,15 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
 
 
 @compiled
-def propagate(now: Sample, s: Settings, state: FilterState, cross: Floats) -> None:
-    """Move estimate and covariance from the last sample to this one."""
+def propagate(now: Sample, s: Settings, state: FilterState) -> Link:
+    """Move estimate and covariance from the last sample to this one; return the interval, `NO_TIME` for a gap."""
     dt_ns = now.stamp_ns - state.last_ns
     dt_s = dt_ns * 1e-9
     if dt_ns <= 0 or dt_ns > GAP_NS or gyro_off(now.gyro_sd_radps, state):
         if dt_ns < 0:
             turn_back(dt_ns, state)
-        coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state, cross)
-        return
+        coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
+        return NO_TIME
     state.coasting = False
     force_before = difference(at_start(state.last_force_mps2, now.force_mps2, s.means), state.accel_bias_mps2)
     force_after = difference(now.force_mps2, state.accel_bias_mps2)
@@ -122,9 +124,10 @@ def propagate(now: Sample, s: Settings, state: FilterState, cross: Floats) -> No
     k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
     q = noise(now.accel_sd_mps2, now.gyro_sd_radps, dt_s, s.process)
     propagate_covariance(state.P, k, q)
-    carry(k, cross)
+    carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
+    return k
 
 
 @compiled
@@ -156,11 +159,11 @@ def turn_back(dt_ns: int, state: FilterState) -> None:
 
 
 @compiled
-def coast(dt_s: float, s: Settings, state: FilterState, cross: Floats) -> None:
+def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     """Cross a gap: forget the velocity, trust everything less, and hold the position until the foot stands again."""
     state.adrift = True
     state.velocity_mps[:] = 0.0
-    cross_gap(state.P, cross, dt_s, s.process)
+    cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting
     state.coasting = True
 

@@ -1,7 +1,8 @@
 """From the end of a recording back to its beginning: each estimate learns what came after it.
 
-Rauch, Tung and Striebel's smoother (AIAA Journal 3, 1965; Sarkka, Bayesian filtering and smoothing, 2013, theorem 8.2) in
-errors, from the filter's tape. It presumes no optimal gain, so all decisions of the filter stand: `docs/smoothing.md`.
+Rauch, Tung and Striebel's smoother (AIAA Journal 3, 1965; Sarkka, Bayesian filtering and smoothing, 2013, theorem 8.2),
+in errors, from the filter's tape. It presumes no optimal gain, so all decisions of the filter stand; the derivation is
+in docs/smoothing.md.
 """
 
 import numpy as np

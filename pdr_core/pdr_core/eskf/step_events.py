@@ -16,6 +16,8 @@ from pdr_core.maths.quaternion import turn_about_up_rad, yaw_rad
 from pdr_core.maths.vector import norm
 from pdr_core.records import StepEvent
 
+ENDS = ("end_ns", "end_sample", "end_position_m", "end_covariance", "end_quat_xyzw", "end_yaw_rad", "end_yaw_sd_rad")
+
 
 @compiled
 def stand(stamp_ns: int, state: FilterState) -> None:
@@ -83,6 +85,6 @@ def begin_next(state: FilterState) -> None:
     """Make the end of the stance noted last the one from which the next step begins."""
     state.excursion_m = 0.0
     state.cross[:, :3] = state.cross[:, 3:]
-    for name in ("end_ns", "end_sample", "end_position_m", "end_covariance", "end_quat_xyzw", "end_yaw_rad", "end_yaw_sd_rad"):
+    for name in ENDS:
         state[name][0] = state[name][1]
     state.end_ns[1] = NO_STAMP

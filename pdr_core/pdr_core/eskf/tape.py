@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, SIZE
 from pdr_core.eskf.navigate import predict, sample, update
+from pdr_core.eskf.process import carry, forget_velocity
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import LAYOUT, FilterState
 from pdr_core.maths.compiled import compiled
@@ -24,16 +25,14 @@ class Tape(NamedTuple):
 
     states: NDArray[np.void]  # (n + 1,) before the first sample and after each
     predicted: Floats  # (n, 16) the estimate of each sample before its corrections
-    P_predicted: Floats  # noqa: N815  (n, 15, 15) its covariance
+    P_predicted: Floats
     cross: Floats  # (n, 15, 15) covariance of its errors with those after the sample before
 
 
 def recorded(block: StanceBlock, s: Settings, state: FilterState) -> Tape:
     """Run the filter from a state, which is not changed, over samples that do not wait for an answer."""
     n = length(block)
-    tape = Tape(
-        np.zeros(n + 1, LAYOUT), np.empty((n, NOMINAL)), np.empty((n, SIZE, SIZE)), np.empty((n, SIZE, SIZE))
-    )
+    tape = Tape(np.zeros(n + 1, LAYOUT), np.empty((n, NOMINAL)), np.empty((n, SIZE, SIZE)), np.empty((n, SIZE, SIZE)))
     tape.states[0] = state
     record(block, s, state.copy(), tape)
     return tape
@@ -45,7 +44,9 @@ def record(block: StanceBlock, s: Settings, state: FilterState, tape: Tape) -> N
     for i in range(block.stance.shape[0]):
         now = sample(block, i)
         tape.cross[i] = state.P
-        predict(now, s, state, tape.cross[i])
+        carry(predict(now, s, state), tape.cross[i])
+        if state.coasting:
+            forget_velocity(tape.cross[i])
         note_nominal(state, tape.predicted[i])
         tape.P_predicted[i] = state.P
         state.doubt[:] = 0.0

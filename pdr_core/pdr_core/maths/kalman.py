@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import inverse_positive, product
+from pdr_core.maths.vector import inverse_positive, product, solve_positive
 from pdr_core.records import Floats
 
 HIDDEN_SHARE = 1e-13  # of every variance, so that rounding leaves a covariance positive; .3 millionth of a deviation
@@ -99,24 +99,25 @@ def smoother_gain(cross: Floats, P: Floats) -> Floats:
     P (n, n) is the covariance of the later error, `cross` (n, m) that of the later with the earlier one. Each error is
     scaled by its deviation first, for they differ by powers of ten; one that is certain tells nothing.
     """
-    sd = np.sqrt(np.diag(P))
-    scale = np.where(sd > 0.0, 1.0 / sd, 0.0)
-    scaled = P.copy()
-    for i in range(P.shape[0]):
-        for j in range(P.shape[0]):
-            scaled[i, j] *= scale[i] * scale[j]
+    n = P.shape[0]
+    scale, scaled, C_transposed = np.zeros(n), np.empty((n, n)), np.empty_like(cross)
+    for i in range(n):
+        scale[i] = 1.0 / np.sqrt(P[i, i]) if P[i, i] > 0.0 else 0.0
+    for i in range(n):
+        for j in range(n):
+            scaled[i, j] = P[i, j] * scale[i] * scale[j]
         scaled[i, i] = 1.0 + HIDDEN_SHARE
-    inverse = inverse_positive(scaled)
-    for i in range(P.shape[0]):
-        for j in range(P.shape[0]):
-            inverse[i, j] *= scale[i] * scale[j]
-    return product(cross.T, inverse)
+        C_transposed[i] = cross[i] * scale[i]
+    solve_positive(scaled, C_transposed)
+    for i in range(n):
+        C_transposed[i] *= scale[i]
+    return C_transposed.T
 
 
 @compiled
 def smoothed(P: Floats, C: Floats, P_later: Floats, P_later_smoothed: Floats) -> None:
     """Replace P by P + C (P_later_smoothed - P_later) C', in place: it holds for any gain of the filter."""
-    change = product(product(C, P_later_smoothed - P_later), np.ascontiguousarray(C.T))
+    change = product(C, product(P_later_smoothed - P_later, C.T))
     for i in range(P.shape[0]):
         for j in range(P.shape[0]):
             P[i, j] += 0.5 * (change[i, j] + change[j, i])

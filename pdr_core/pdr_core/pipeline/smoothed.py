@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.smoother import SEGMENT, Smoother
+from pdr_core.eskf.state import FilterState
 from pdr_core.params import Params
 from pdr_core.pipeline.foot_inertial import FootInertial, FootOutput
 from pdr_core.records import ImuBlock, Notice, StepEvent, length, part
@@ -20,18 +21,17 @@ class SmoothedFoot:
     def run(self, raw: ImuBlock) -> None:
         """Take the next samples, any number of them."""
         for start in range(0, length(raw), SEGMENT):
-            piece = part(raw, start, start + SEGMENT)
-            self._keep(lambda piece=piece: self._forward.run(piece))
+            before = self._forward.state.copy()
+            self._keep(before, self._forward.run(part(raw, start, start + SEGMENT)))
 
     def finish(self, seen: Callable[[float], object] = bool) -> Iterator[FootOutput]:
         """Yield the smoothed estimates and steps, in order; `seen` is told the share of the work that is done."""
-        self._keep(self._forward.finish)
+        before = self._forward.state.copy()
+        self._keep(before, self._forward.finish())
         for judged, nav, steps in self._smoother.smoothed(self._forward.state, self.steps, seen):
             yield FootOutput(judged, nav, steps)
 
-    def _keep(self, work: Callable[[], FootOutput]) -> None:
-        before = self._forward.state.copy()
-        output = work()
+    def _keep(self, before: FilterState, output: FootOutput) -> None:
         self._smoother.keep(before, output.judged)
         self.steps += output.steps
 
