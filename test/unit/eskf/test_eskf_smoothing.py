@@ -45,10 +45,18 @@ def test_at_the_end_it_is_the_filter():
     assert not np.array_equal(smooth_nav.position_m[-2], nav.position_m[-2])
 
 
+def rested(rate_radps, sd_radps=1e-3):
+    """Return the walk with what the rest before it shows."""
+    rate, sd = JUDGED.rest_rate_radps.copy(), JUDGED.rest_sd_radps.copy()
+    rate[600], sd[600] = rate_radps, sd_radps
+    return JUDGED._replace(rest_rate_radps=rate, rest_sd_radps=sd)
+
+
 def test_a_walk_comes_out_nearer_to_the_truth_and_is_more_certain():
-    before, after = taped(), smoothed()
-    assert np.mean(error_mps(after)) < 0.9 * np.mean(error_mps(before))
-    assert np.mean(error_m(estimates(after))) < 1.01 * np.mean(error_m(estimates(before)))
+    block = rested(JUDGED.imu.gyro_radps[50:600].mean(axis=0))
+    before, after = taped(block), smoothed(block)
+    assert np.mean(error_mps(after)) < 0.6 * np.mean(error_mps(before))
+    assert np.mean(error_m(estimates(after))) < np.mean(error_m(estimates(before)))
     variances = [np.einsum("nii->ni", tape.states["P"][100:]).mean(axis=0) for tape in (before, after)]
     assert (variances[1] < variances[0]).all()
     assert (np.linalg.eigvalsh(after.states["P"])[:, 0] > 0.0).all()
@@ -68,10 +76,10 @@ def test_stances_leave_the_gyro_bias_alone_also_backwards():
 
 
 def test_a_rest_tells_the_gyro_bias_also_to_the_time_before():
-    rate, sd = JUDGED.rest_rate_radps.copy(), JUDGED.rest_sd_radps.copy()
-    rate[600], sd[600] = [0.003, -0.002, 0.001], 1e-5
-    tape = smoothed(JUDGED._replace(rest_rate_radps=rate, rest_sd_radps=sd))
-    np.testing.assert_allclose(tape.states["gyro_bias_radps"][100], rate[600], atol=1e-4)
+    shown_radps = [0.003, -0.002, 0.001]
+    tape = smoothed(rested(shown_radps, 1e-5))
+    np.testing.assert_allclose(tape.states["gyro_bias_radps"][100], shown_radps, atol=1e-4)
+    assert not taped(rested(shown_radps, 1e-5)).states["gyro_bias_radps"][100].any()
 
 
 def test_the_yaw_is_not_moved_by_stances():
@@ -83,17 +91,14 @@ def test_the_yaw_is_not_moved_by_stances():
 
 
 def test_a_doubt_keeps_what_it_corrects_on_its_side():
-    late = slice(1050, None)
     accel = JUDGED.imu.accel_mps2.copy()
     accel[1050:1070, 0] += 60.0  # the foot seems to fly off in mid-swing
     block = JUDGED._replace(imu=JUDGED.imu._replace(accel_mps2=accel))
     tape = smoothed(block)
     assert tape.states[-1]["doubted"] > 0
-    raised = tape.P_predicted - taped(block).P_predicted
-    assert not raised.any()
     before = int(STANCE_ENDS[STANCE_ENDS < 1050][-1])
     assert error_m(estimates(tape))[:before].max() < 0.05
-    assert error_m(estimates(taped(block)))[late].max() > 1.0
+    assert error_m(estimates(taped(block)))[1050:].max() > 1.0
 
 
 def test_where_the_tilt_was_lost_nothing_is_led_back():
