@@ -128,12 +128,16 @@ def solve_positive(S: Floats, B: Floats) -> None:
     L, n = cholesky(S), S.shape[0]
     for i in range(n):
         for k in range(i):
-            B[i] -= L[i, k] * B[k]
-        B[i] /= L[i, i]
+            for j in range(B.shape[1]):
+                B[i, j] -= L[i, k] * B[k, j]
+        for j in range(B.shape[1]):
+            B[i, j] /= L[i, i]
     for i in range(n - 1, -1, -1):
         for k in range(i + 1, n):
-            B[i] -= L[k, i] * B[k]
-        B[i] /= L[i, i]
+            for j in range(B.shape[1]):
+                B[i, j] -= L[k, i] * B[k, j]
+        for j in range(B.shape[1]):
+            B[i, j] /= L[i, i]
 
 
 @compiled
