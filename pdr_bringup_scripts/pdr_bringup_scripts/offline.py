@@ -1,32 +1,39 @@
 """Estimates recordings offline, piece by piece, in bounded memory."""
 
 import time
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TypeVar
 
 from pdr_bringup_scripts.book import Book
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
-from pdr_core.evaluation.result import Result, SensorsResult
+from pdr_core.evaluation.result import SMOOTHED, Result, SensorsResult
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial
+from pdr_core.pipeline import FootInertial, SmoothedFoot
 from pdr_core.recording import Sensor, Session
 from pdr_core.records import length
 from pdr_core.warmup import warm_up
 
+T = TypeVar("T")
 PIPELINE = "foot_inertial"
 
 
 def run_recording(
-    session: Session, params: Params, sensor: str | None, out: Path | None, terminal: Terminal
+    session: Session, params: Params, sensor: str | None, out: Path | None, terminal: Terminal, smooth: bool = False
 ) -> Result | SensorsResult:
-    """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several."""
+    """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several.
+
+    With `smooth` every estimate knows the whole recording.
+    """
     chosen = chosen_sensors(session, sensor)
     check_output(out, session)
-    warm_up(params)
+    warm_up(params, smooth)
+    run = run_sensor_smoothed if smooth else run_sensor
     if len(chosen) == 1:
-        return run_sensor(session, chosen[0], params, out, terminal)
-    results = {s.name: run_sensor(session, s, params, out / s.name if out else None, terminal) for s in chosen}
+        return run(session, chosen[0], params, out, terminal)
+    results = {s.name: run(session, s, params, out / s.name if out else None, terminal) for s in chosen}
     together = SensorsResult(str(session.path), session.format, results)
     if out:
         (out / "result.json").write_text(together.to_json() + "\n")
@@ -56,18 +63,48 @@ def only_sensor(session: Session, name: str) -> Sensor:
     return sensors[0]
 
 
+class Watch:
+    """Adds up the time that the estimation alone takes."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    def __call__(self, work: Callable[..., T], *arguments: object) -> T:
+        """Return what the work gives."""
+        begin = time.perf_counter()
+        result = work(*arguments)
+        self.seconds += time.perf_counter() - begin
+        return result
+
+
 def run_sensor(session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal) -> Result:
     """Estimate one sensor and write its files."""
-    pipeline, samples, seconds = FootInertial(params), 0, 0.0
+    pipeline, watch, samples = FootInertial(params), Watch(), 0
     with ExitStack() as stack:
         book = Book(session, sensor, out, stack)
         show = stack.enter_context(terminal.progress(f"Estimating {sensor.name}"))
         for piece in sensor.pieces():
-            begin = time.perf_counter()
-            output = pipeline.run(piece)
-            seconds += time.perf_counter() - begin
+            book.keep(watch(pipeline.run, piece))
             samples += length(piece)
-            book.keep(output)
             show(f"{book.duration_s:.0f} s of the recording, {len(book.steps)} strides")
         book.keep(pipeline.finish())
-        return book.close(PIPELINE, params, samples, seconds, pipeline.notices)
+        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices)
+
+
+def run_sensor_smoothed(
+    session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal
+) -> Result:
+    """Estimate one sensor by its whole recording and write its files."""
+    pipeline, watch, samples = SmoothedFoot(params), Watch(), 0
+    with ExitStack() as stack:
+        book = Book(session, sensor, out, stack)
+        with terminal.progress(f"Estimating {sensor.name}") as show:
+            for piece in sensor.pieces():
+                watch(pipeline.run, piece)
+                samples += length(piece)
+                show(f"{samples} samples, {len(pipeline.steps)} strides")
+        show = stack.enter_context(terminal.progress(f"Smoothing {sensor.name}"))
+        outputs = pipeline.finish(lambda share: show(f"{share:.0%}"))
+        while output := watch(next, outputs, None):
+            book.keep(output)
+        return book.close(PIPELINE + SMOOTHED, params, samples, watch.seconds, pipeline.notices)

@@ -3,19 +3,27 @@
 import numpy as np
 
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial
+from pdr_core.pipeline import FootInertial, SmoothedFoot
 from pdr_core.records import ImuBlock
 
 DEFAULTS = Params()
 
 
-def warm_up(params: Params = DEFAULTS) -> None:
-    """Run the pipeline over one sample: every function that it needs is compiled, or loaded from the cache."""
+def warm_up(params: Params = DEFAULTS, smooth: bool = False) -> None:
+    """Run the pipeline over one sample: every function that it needs is compiled, or loaded from the cache.
+
+    The smoother, which does not run live, is warmed up where it is asked for.
+    """
     one, gravity = np.zeros(1), np.array([[0.0, 0.0, 9.81]])
+    sample = ImuBlock(np.zeros(1, np.int64), np.zeros((1, 3)), gravity, one, one)
     pipeline = FootInertial(params)
-    pipeline.run(ImuBlock(np.zeros(1, np.int64), np.zeros((1, 3)), gravity, one, one))
+    pipeline.run(sample)
     pipeline.finish()
+    if smooth:
+        smoothed = SmoothedFoot(params)
+        smoothed.run(sample)
+        list(smoothed.finish())
 
 
 if __name__ == "__main__":
-    warm_up()
+    warm_up(smooth=True)

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pdr_core.eskf import ZuptFilter
+from pdr_core.eskf.output import empty_nav
 from pdr_core.intake import Ingestion
 from pdr_core.intake.stamp_policy import StampPolicy
 from pdr_core.params import Params, SimulationParams, changed
-from pdr_core.pipeline import FootInertial
+from pdr_core.pipeline import FootInertial, SmoothedFoot
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
@@ -110,6 +111,20 @@ class Chain:
         return out.nav, [*out.steps, *self.stage.notices]
 
 
+class Smoothed:
+    def __init__(self):
+        self.stage = SmoothedFoot(PARAMS)
+
+    def run(self, block):
+        self.stage.run(block)
+        return empty_nav(0), []
+
+    def finish(self):
+        outputs = list(self.stage.finish())
+        steps = [step for out in outputs for step in out.steps]
+        return joined([empty_nav(0), *(out.nav for out in outputs)]), [*steps, *self.stage.notices]
+
+
 STAGES = {
     "stamps": (Stamps, RAW),
     "even_stamps": (EvenStamps, RAW),
@@ -117,6 +132,7 @@ STAGES = {
     "stance": (Stance, TRUSTED),
     "filter": (Filter, JUDGED),
     "chain": (Chain, RAW),
+    "smoothed": (Smoothed, RAW),
 }
 
 
@@ -213,6 +229,19 @@ def test_stamps_increase_and_what_is_left_out_is_named(rate_hz, samples, start_n
     named = sum(told.get(kind, 0) for kind in LEFT_OUT)
     assert np.count_nonzero(np.diff(out.stamp_ns) <= 0) <= told.get("clock_jumped_back", 0)
     assert named <= length(raw) - length(out) <= named + told.get("constant_rate", 0)
+
+
+@given(st.integers(0, length(RAW)), SAMPLES, st.integers(-(2**63), 2**63 - 1), st.booleans())
+@settings(max_examples=100)
+def test_nothing_that_comes_in_brings_the_smoother_down(at, samples, start_ns, at_its_time):
+    chain = SmoothedFoot(PARAMS)
+    begin = int(RAW.stamp_ns[min(at, length(RAW) - 1)]) if at_its_time else start_ns
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        for block in (part(RAW, 0, at), mad_block(samples, begin), part(RAW, at)):
+            chain.run(block)
+        for out in chain.finish():
+            assert_sound(out.nav, out.steps)
 
 
 @given(st.integers(0, length(RAW)), SAMPLES, st.integers(-(2**63), 2**63 - 1), st.booleans())

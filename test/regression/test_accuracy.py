@@ -46,9 +46,9 @@ class Run:
         return ROW.format(self.folder, self.name, r.samples, strides, ate2, ate3, closure, notices)
 
 
-def run(path: Path, out: Path) -> list[Run]:
+def run(path: Path, out: Path, smooth: bool = False) -> list[Run]:
     """Run every sensor of a recording, and read the trajectory back from the file that users get."""
-    result = run_recording(open_recording(path), Params(), None, out, Terminal())
+    result = run_recording(open_recording(path), Params(), None, out, Terminal(), smooth)
     sensors = result.sensors if isinstance(result, SensorsResult) else {"": result}
     return [
         Run(path.parent.name, f"{path.stem} {s}", r, read_tum(out / s / "trajectory.tum")) for s, r in sensors.items()
@@ -86,6 +86,22 @@ def test_every_gait_in_the_motion_capture_room(runs: list[Run]) -> None:
     assert np.mean(list(ate2_m.values())) <= 0.070
     assert np.median(list(ate2_m.values())) <= 0.050
     assert {name: error for name, error in ate2_m.items() if not error <= 0.25} == {}
+
+
+def test_every_gait_in_the_motion_capture_room_smoothed(
+    recordings: Path, runs: list[Run], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    out = tmp_path_factory.mktemp("smoothed")
+    paths = sorted((recordings / "pyshoe_vicon").glob("*.mat"))
+    smoothed = [one for path in paths for one in run(path, out / path.stem, smooth=True)]
+    print("", HEAD, *smoothed, sep="\n")
+    ate2_m, before_m = ([one.result.truth.ate2_m for one in some] for some in (smoothed, of(runs, "pyshoe_vicon")))
+    assert [one.result.strides for one in smoothed] == [one.result.strides for one in of(runs, "pyshoe_vicon")]
+    assert len(ate2_m) == 28
+    assert np.mean(ate2_m) <= 0.060
+    assert np.median(ate2_m) <= 0.045
+    assert np.mean(ate2_m) < 0.95 * np.mean(before_m)
+    assert max(np.subtract(ate2_m, before_m)) < 0.01
 
 
 def test_a_loop_closes(runs: list[Run]) -> None:

@@ -14,6 +14,7 @@ def run(
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
     detector: str = typer.Option(None, help="what tells a standing foot: adaptive, glrt ...; default: as in the file"),
     gate: str = typer.Option(None, help="what sorts out false stances by their time: none, gait_phases or kmeans"),
+    smooth: bool = typer.Option(False, "--smooth", help="let every estimate know the whole recording: go back over it"),
 ) -> None:
     """Estimate the walk in a recording, offline and at full speed.
 
@@ -31,7 +32,7 @@ def run(
     named = {"detector": detector, "time_gate": gate}
     chosen = changed(chosen, "stance", **{name: value for name, value in named.items() if value is not None})
     session = open_recording(recording, column_map=columns)
-    result = run_recording(session, chosen, sensor, out, Terminal())
+    result = run_recording(session, chosen, sensor, out, Terminal(), smooth)
     print(result.to_json() if json else in_words(result))
     if out and not json:
         print(f"Written to {out}: {FILES}")

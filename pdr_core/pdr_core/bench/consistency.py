@@ -17,17 +17,15 @@ from scipy.stats import chi2
 from pdr_core.bench.believed_walk import CONSUMER, RATE_HZ, BelievedWalk, Ground, believed_walk, ground, told
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.error_state import ATTITUDE, VELOCITY
-from pdr_core.eskf.navigate import sample, sample_step
-from pdr_core.eskf.settings import Settings
-from pdr_core.eskf.state import FilterState, fresh_state
+from pdr_core.eskf.smoothing import smooth
+from pdr_core.eskf.state import fresh_state
+from pdr_core.eskf.tape import recorded
 from pdr_core.evaluation.metrics import closure_2d_m, path_length_m, percent
 from pdr_core.intake import Ingestion
-from pdr_core.maths.compiled import compiled
 from pdr_core.params import Params
-from pdr_core.records import Flags, Floats, ImuBlock, StanceBlock, joined
+from pdr_core.records import Flags, Floats, ImuBlock, StanceBlock, joined, length
 from pdr_core.stance import StanceDetection
 
-SIZE = 6  # velocity and attitude
 PARTS = {"velocity and tilt": slice(0, 5), "velocity": slice(0, 3), "tilt": slice(3, 5), "yaw": slice(5, 6)}
 UPDATE = "zero-velocity update"
 
@@ -39,6 +37,7 @@ class Campaign:
     name: str
     detector: bool = False  # the default stance detection instead of true verdicts
     trembles: bool = True
+    smoothed: bool = False  # what the smoother says, beside the filter's innovations
     params: Params = field(default_factory=told)
 
 
@@ -46,6 +45,7 @@ CAMPAIGNS = (
     Campaign("true verdicts"),
     Campaign("default detector", detector=True),
     Campaign("default detector, foot perfectly still", detector=True, trembles=False),
+    Campaign("true verdicts, smoothed", smoothed=True),
 )
 
 
@@ -91,7 +91,7 @@ def consistency(campaign: Campaign, runs: int, length_m: float, seen: Callable[[
     for done in range(runs):
         walk = believed_walk(where, told().filter, campaign.trembles, done)
         block = judged(campaign, where, walk.imu)
-        track = estimated(block, campaign.params)
+        track = estimated(block, campaign)
         squares.append(normalised_squares(where, walk, track, block.stance))
         end_errors.append(
             percent(closure_2d_m(track.position_m[-1], walk.position_m[-1]), path_length_m(walk.position_m))
@@ -122,24 +122,14 @@ def truly_judged(imu: ImuBlock, stance: Flags) -> StanceBlock:
     return StanceBlock(imu, stance, np.zeros(n), np.ones(n), np.zeros(n), rest_rate, rest_sd)
 
 
-def estimated(block: StanceBlock, params: Params) -> Track:
-    """Return what the filter says of all samples."""
-    n = len(block.stance)
-    track = Track(np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 4)), np.empty((n, SIZE, SIZE)), np.empty(n))
-    follow(block, settings(params.filter, params.place), fresh_state(), track)
-    return track
-
-
-@compiled
-def follow(block: StanceBlock, s: Settings, state: FilterState, track: Track) -> None:
-    """Run the filter and write down its state after every sample."""
-    for i in range(block.stance.shape[0]):
-        sample_step(sample(block, i), s, state)
-        track.position_m[i] = state.position_m
-        track.velocity_mps[i] = state.velocity_mps
-        track.quat_xyzw[i] = state.quat_xyzw
-        track.P[i] = state.P[VELOCITY : ATTITUDE + 3, VELOCITY : ATTITUDE + 3]
-        track.nis[i] = state.normalised_innovation
+def estimated(block: StanceBlock, campaign: Campaign) -> Track:
+    """Return what the filter, or the smoother, says of all samples."""
+    tape = recorded(block, settings(campaign.params.filter, campaign.params.place), fresh_state())
+    nis = tape.states["normalised_innovation"][1:].copy()
+    if campaign.smoothed:
+        smooth(tape, np.zeros(length(block), np.bool_))
+    now, errors = tape.states[1:], slice(VELOCITY, ATTITUDE + 3)
+    return Track(now["position_m"], now["velocity_mps"], now["quat_xyzw"], now["P"][:, errors, errors], nis)
 
 
 def normalised_squares(where: Ground, walk: BelievedWalk, track: Track, stance: Flags) -> dict[str, Floats]:

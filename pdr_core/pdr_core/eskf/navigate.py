@@ -6,7 +6,7 @@ from pdr_core.conventions import GAP_NS
 from pdr_core.eskf.align import align
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
-from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
+from pdr_core.eskf.process import NO_TIME, Link, carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
@@ -54,10 +54,28 @@ def sample(block: StanceBlock, i: int) -> Sample:
 @compiled
 def sample_step(now: Sample, s: Settings, state: FilterState) -> None:
     """Take a sample into the estimate."""
+    predict(now, s, state)
+    update(now, s, state)
+
+
+@compiled
+def predict(now: Sample, s: Settings, state: FilterState) -> Link:
+    """Move the estimate to the time of a sample; return the interval as the errors see it, or `NO_TIME`."""
+    for i in range(3):
+        state.held_m[i] = state.position_m[i]
+    if state.aligning:
+        return NO_TIME
+    return propagate(now, s, state)
+
+
+@compiled
+def update(now: Sample, s: Settings, state: FilterState) -> None:
+    """Correct the estimate by what a sample tells beside its interval."""
     if state.aligning:
         align(now.stamp_ns, now.force_mps2, now.rate_radps, s, state)
     else:
-        propagate(now, s, state)
+        if state.adrift:
+            hold(state)
         if now.rest_sd_radps > 0.0:
             zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
         roam(state)
@@ -84,15 +102,15 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
 
 
 @compiled
-def propagate(now: Sample, s: Settings, state: FilterState) -> None:
-    """Move estimate and covariance from the last sample to this one."""
+def propagate(now: Sample, s: Settings, state: FilterState) -> Link:
+    """Move estimate and covariance from the last sample to this one; return the interval, `NO_TIME` for a gap."""
     dt_ns = now.stamp_ns - state.last_ns
     dt_s = dt_ns * 1e-9
     if dt_ns <= 0 or dt_ns > GAP_NS or gyro_off(now.gyro_sd_radps, state):
         if dt_ns < 0:
             turn_back(dt_ns, state)
         coast(dt_s if dt_ns > 0 else UNKNOWN_GAP_S, s, state)
-        return
+        return NO_TIME
     state.coasting = False
     rate, force_before, force_after = between(
         s.samples,
@@ -102,7 +120,6 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
         difference(now.force_mps2, state.accel_bias_mps2),
         dt_s,
     )
-    held_m = state.position_m[0], state.position_m[1], state.position_m[2]
     R_before, R_after = advance(
         state.position_m, state.velocity_mps, state.quat_xyzw, rate, force_before, force_after, dt_s, state.gravity_mps2
     )
@@ -112,9 +129,14 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     carry(k, state.cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
-    if state.adrift:
-        state.velocity_mps[:] = 0.0
-        state.position_m[:] = held_m
+    return k
+
+
+@compiled
+def hold(state: FilterState) -> None:
+    """Stay where the last sample was: nobody knows the velocity and the tilt in the middle of a swing."""
+    state.velocity_mps[:] = 0.0
+    state.position_m[:] = state.held_m
 
 
 @compiled

@@ -42,6 +42,9 @@ class Link(NamedTuple):
     mean_R: Rows  # noqa: N815  world from foot
 
 
+NO_TIME = Link(0.0, 1.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))  # F = I
+
+
 @compiled
 def link(
     R_before: Matrix, R_after: Matrix, force_before: Vector, force_after: Vector, dt_s: float, correlation_s: float
@@ -110,12 +113,18 @@ def cross_gap(P: Floats, cross: Floats, dt_s: float, process: ProcessNoise) -> N
     The velocity is forgotten: a foot may end a gap at any phase of its swing. The position wanders, at random below a
     second and steadily beyond.
     """
-    P[VELOCITY : VELOCITY + 3] = 0.0
-    P[:, VELOCITY : VELOCITY + 3] = 0.0
-    cross[VELOCITY : VELOCITY + 3] = 0.0
+    forget_velocity(P)
+    forget_velocity(P.T)
+    forget_velocity(cross)
     spread_s2 = dt_s * max(dt_s, 1.0)
     turn_rad2 = min(process.gap_rate_radps**2 * spread_s2, np.pi**2)  # more than unknown it cannot be
     for i in range(3):
         P[POSITION + i, POSITION + i] += process.gap_speed_mps**2 * spread_s2
         P[VELOCITY + i, VELOCITY + i] = process.gap_speed_mps**2
         P[ATTITUDE + i, ATTITUDE + i] += turn_rad2
+
+
+@compiled
+def forget_velocity(M: Floats) -> None:
+    """Replace M, (15, m), by F M across a gap."""
+    M[VELOCITY : VELOCITY + 3] = 0.0

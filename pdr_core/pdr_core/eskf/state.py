@@ -25,6 +25,7 @@ LAST_SAMPLE = [
     ("last_gyro_sd_radps", np.float64),
     ("coasting", np.bool_),                   # the last interval was not integrated
     ("adrift", np.bool_),                     # no stance since then: velocity and tilt are unknown
+    ("held_m", np.float64, 3),                # the position before the interval
 ]
 ALIGNMENT = [                                 # the first moments, in which gravity alone gives the attitude
     ("aligning", np.bool_),
@@ -37,6 +38,7 @@ GATE = [
     ("last_accepted_ns", np.int64),           # of the zero-velocity updates
     ("contradicted_s", np.float64),           # time in stances that contradict the estimate, since one agreed
     ("contradicted_ns", np.int64),            # the last sample of them
+    ("doubt", np.float64, SIZE),              # by what P was raised when it was doubted last
 ]
 # The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
@@ -44,6 +46,7 @@ GATE = [
 STEPS = [
     ("step_number", np.int64),                # of the next step event
     ("end_ns", np.int64, 2),
+    ("end_sample", np.int64, 2),
     ("end_position_m", np.float64, (2, 3)),
     ("away_m", np.float64),                   # farthest distance from where the foot stood last
     ("excursion_m", np.float64),              # the farthest between the two ends

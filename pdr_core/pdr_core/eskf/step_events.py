@@ -16,6 +16,8 @@ from pdr_core.maths.quaternion import turn_about_up_rad, yaw_rad
 from pdr_core.maths.vector import norm
 from pdr_core.records import StepEvent
 
+ENDS = ("end_ns", "end_sample", "end_position_m", "end_covariance", "end_quat_xyzw", "end_yaw_rad", "end_yaw_sd_rad")
+
 
 @compiled
 def stand(stamp_ns: int, state: FilterState) -> None:
@@ -23,7 +25,7 @@ def stand(stamp_ns: int, state: FilterState) -> None:
     P = state.P
     state.excursion_m = max(state.excursion_m, state.away_m)
     state.away_m = 0.0
-    state.end_ns[1] = stamp_ns
+    state.end_ns[1], state.end_sample[1] = stamp_ns, state.samples
     state.end_quat_xyzw[1] = state.quat_xyzw
     state.end_yaw_rad[1] = yaw_rad(state.quat_xyzw)
     state.end_yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
@@ -72,6 +74,7 @@ def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent
             yaw_rad=float(state.end_yaw_rad[1]),
             yaw_sd_rad=float(state.end_yaw_sd_rad[1]),
             answer_due_ns=answer_due_ns,
+            samples=(int(state.end_sample[0]), int(state.end_sample[1])),
         )
     state.step_number += first or step is not None
     begin_next(state)
@@ -82,6 +85,6 @@ def begin_next(state: FilterState) -> None:
     """Make the end of the stance noted last the one from which the next step begins."""
     state.excursion_m = 0.0
     state.cross[:, :3] = state.cross[:, 3:]
-    for name in ("end_ns", "end_position_m", "end_covariance", "end_quat_xyzw", "end_yaw_rad", "end_yaw_sd_rad"):
+    for name in ENDS:
         state[name][0] = state[name][1]
     state.end_ns[1] = NO_STAMP

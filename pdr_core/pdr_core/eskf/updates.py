@@ -4,7 +4,7 @@ import numpy as np
 
 from pdr_core.conventions import GAP_NS
 from pdr_core.eskf import gravity, heading, zaru, zupt
-from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
+from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.eskf.known_yaw import given_yaw
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
@@ -105,10 +105,10 @@ def doubt(stamp_ns: int, speed_mps: float, state: FilterState) -> None:
     state.doubted += 1
     swing_s = max(SHORTEST_SWING_S, (stamp_ns - state.last_accepted_ns) * 1e-9)
     tilt_rad = min(np.pi, speed_mps / (state.gravity_mps2 * swing_s))
-    for i in range(3):
-        state.P[VELOCITY + i, VELOCITY + i] += speed_mps**2
-    for i in range(2):
-        state.P[ATTITUDE + i, ATTITUDE + i] += tilt_rad**2
+    state.doubt[VELOCITY : VELOCITY + 3] = speed_mps**2
+    state.doubt[ATTITUDE : ATTITUDE + 2] = tilt_rad**2
+    for i in range(SIZE):
+        state.P[i, i] += state.doubt[i]
 
 
 @compiled

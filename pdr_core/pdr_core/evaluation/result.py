@@ -14,6 +14,8 @@ from pdr_core.records import Floats, Level, Notice, TruthKind
 
 LEVELS = {Level.OK: "note", Level.WARN: "warning", Level.ERROR: "error"}  # as a person says it
 
+SMOOTHED = ", smoothed"  # ends the name of a pipeline whose estimates know the whole recording
+
 
 @dataclass(frozen=True)
 class Result:
@@ -81,7 +83,8 @@ def in_words(result: Result | SensorsResult) -> str:
     if not result.strides:
         return " ".join([f"No stride was found within {duration(result.duration_s)}.", *_notices(result.notices)])
     walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, 'stride')}"
-    sentences = [f"{walked} within {duration(result.duration_s)}.", *_error(result), *_notices(result.notices)]
+    how = SMOOTHED if result.pipeline.endswith(SMOOTHED) else ""
+    sentences = [f"{walked} within {duration(result.duration_s)}{how}.", *_error(result), *_notices(result.notices)]
     return " ".join(sentences)
 
 

@@ -1,12 +1,14 @@
-"""The Kalman filter's algebra for any state and measurement: innovation, gain, correction."""
+"""The Kalman filter's algebra for any state and measurement: innovation, gain, correction; and the smoother's."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import inverse_positive, product
+from pdr_core.maths.vector import inverse_positive, product, solve_positive
 from pdr_core.records import Floats
+
+HIDDEN_SHARE = 1e-13  # of every variance, so that rounding leaves a covariance positive; .3 millionth of a deviation
 
 
 class Innovation(NamedTuple):
@@ -88,3 +90,34 @@ def symmetrise(P: Floats) -> None:
             mean = 0.5 * (P[i, j] + P[j, i])
             P[i, j] = mean
             P[j, i] = mean
+
+
+@compiled
+def smoother_gain(cross: Floats, P: Floats) -> Floats:
+    """Return C = cross' P^-1, (m, n): the best estimate of an earlier error is C times a later one.
+
+    P (n, n) is the covariance of the later error, `cross` (n, m) that of the later with the earlier one. Each error is
+    scaled by its deviation first, for they differ by powers of ten; one that is certain tells nothing.
+    """
+    n = P.shape[0]
+    scale, scaled, C_transposed = np.zeros(n), np.empty((n, n)), np.empty_like(cross)
+    for i in range(n):
+        scale[i] = 1.0 / np.sqrt(P[i, i]) if P[i, i] > 0.0 else 0.0
+    for i in range(n):
+        for j in range(n):
+            scaled[i, j] = P[i, j] * scale[i] * scale[j]
+        scaled[i, i] = 1.0 + HIDDEN_SHARE
+        C_transposed[i] = cross[i] * scale[i]
+    solve_positive(scaled, C_transposed)
+    for i in range(n):
+        C_transposed[i] *= scale[i]
+    return C_transposed.T
+
+
+@compiled
+def smoothed(P: Floats, C: Floats, P_later: Floats, P_later_smoothed: Floats) -> None:
+    """Replace P by P + C (P_later_smoothed - P_later) C', in place: it holds for any gain of the filter."""
+    change = product(C, product(P_later_smoothed - P_later, C.T))
+    for i in range(P.shape[0]):
+        for j in range(P.shape[0]):
+            P[i, j] += 0.5 * (change[i, j] + change[j, i])

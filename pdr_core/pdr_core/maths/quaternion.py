@@ -6,7 +6,7 @@ The functions take anything with four (or three) numbers and return tuples, whic
 import numpy as np
 
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import Rows, Vector
+from pdr_core.maths.vector import Rows, Triple, Vector, norm, scaled
 from pdr_core.records import Floats
 
 Four = tuple[float, float, float, float]
@@ -25,12 +25,26 @@ def multiply(p: Quaternion, q: Quaternion) -> Four:
 
 
 @compiled
+def conjugate(q: Quaternion) -> Four:
+    """Return the inverse of a unit quaternion."""
+    return -q[0], -q[1], -q[2], q[3]
+
+
+@compiled
 def from_rotation_vector(angle_rad: Vector) -> Four:
     """Return the quaternion of a rotation vector [rad]: the exponential map, exact also near zero."""
     norm = np.sqrt(angle_rad[0] ** 2 + angle_rad[1] ** 2 + angle_rad[2] ** 2)
     half = 0.5 * norm
     scale = np.sin(half) / norm if norm > 1e-8 else 0.5 - norm**2 / 48.0
     return scale * angle_rad[0], scale * angle_rad[1], scale * angle_rad[2], np.cos(half)
+
+
+@compiled
+def to_rotation_vector(q: Quaternion) -> Triple:
+    """Return the rotation vector [rad] of a unit quaternion, of at most half a turn: the logarithm."""
+    sine, cosine = norm((q[0], q[1], q[2])), abs(q[3])
+    scale = 2.0 * np.arctan2(sine, cosine) / sine if sine > 1e-8 else 2.0
+    return scaled(scale if q[3] >= 0.0 else -scale, (q[0], q[1], q[2]))
 
 
 @compiled

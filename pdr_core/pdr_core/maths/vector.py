@@ -110,20 +110,46 @@ def within(v: Vector, bound: float) -> bool:
 
 
 @compiled
+def cholesky(S: Floats) -> Floats:
+    """Return the lower triangle L, (n, n), of a symmetric positive definite matrix S = L L'."""
+    L = np.zeros(S.shape)
+    for i in range(S.shape[0]):
+        for j in range(i + 1):
+            rest = S[i, j]
+            for k in range(j):
+                rest -= L[i, k] * L[j, k]
+            L[i, j] = np.sqrt(rest) if i == j else rest / L[j, j]
+    return L
+
+
+@compiled
+def solve_positive(S: Floats, B: Floats) -> None:
+    """Replace B, (n, m), by S^-1 B, for S (n, n) symmetric and positive definite."""
+    L, n = cholesky(S), S.shape[0]
+    for i in range(n):
+        for k in range(i):
+            for j in range(B.shape[1]):
+                B[i, j] -= L[i, k] * B[k, j]
+        for j in range(B.shape[1]):
+            B[i, j] /= L[i, i]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            for j in range(B.shape[1]):
+                B[i, j] -= L[k, i] * B[k, j]
+        for j in range(B.shape[1]):
+            B[i, j] /= L[i, i]
+
+
+@compiled
 def inverse_positive(S: Floats) -> Floats:
     """Return the inverse of a small symmetric positive definite matrix (n, n): Cholesky's L, its inverse, L'^-1 L^-1.
 
     LAPACK would do it too, but takes as long for the call as this for the work, and 0.4 s to load.
     """
     n = S.shape[0]
-    L = np.zeros((n, n))
+    L = cholesky(S)
     M = np.zeros((n, n))  # the inverse of L
     for i in range(n):
-        for j in range(i + 1):
-            rest = S[i, j]
-            for k in range(j):
-                rest -= L[i, k] * L[j, k]
-            L[i, j] = np.sqrt(rest) if i == j else rest / L[j, j]
         M[i, i] = 1.0 / L[i, i]
         for j in range(i):
             for k in range(j, i):

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from pdr_core.eskf import ZuptFilter
+from pdr_core.eskf.state import FilterState
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
 from pdr_core.records import (
@@ -71,6 +72,11 @@ class FootInertial:
             nav, unanswered = self._filter.resume()
             pieces, steps = [*pieces, nav], steps + unanswered
         return joined(pieces) if len(pieces) > 1 else nav, steps
+
+    @property
+    def state(self) -> FilterState:
+        """The filter's memory, which it goes on changing."""
+        return self._filter.state
 
     @property
     def notices(self) -> list[Notice]:

@@ -1,0 +1,78 @@
+"""From the end of a recording back to its beginning: each estimate learns what came after it.
+
+Rauch, Tung and Striebel's smoother (AIAA Journal 3, 1965; Sarkka, Bayesian filtering and smoothing, 2013, theorem 8.2),
+in errors, from the filter's tape. It presumes no optimal gain, so all decisions of the filter stand; the derivation is
+in docs/smoothing.md.
+"""
+
+import numpy as np
+
+from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, POSITION, VELOCITY
+from pdr_core.eskf.gravity import tilt_is_lost
+from pdr_core.eskf.output import empty_nav, write
+from pdr_core.eskf.state import FilterState
+from pdr_core.eskf.tape import Tape, error_between, note_nominal
+from pdr_core.eskf.updates import inject
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.kalman import smoothed, smoother_gain
+from pdr_core.maths.quaternion import yaw_rad
+from pdr_core.maths.vector import product
+from pdr_core.records import Flags, NavBlock
+
+
+@compiled
+def smooth(tape: Tape, ends: Flags) -> None:
+    """Smooth all states of the tape, in place, but the last, which is smoothed already.
+
+    `ends` (n,) flags the samples where a step begins or ends.
+    """
+    for i in range(ends.shape[0] - 1, -1, -1):
+        if ends[i]:
+            settle(tape.states[i + 1])
+        look_back(tape, i)
+
+
+@compiled
+def look_back(tape: Tape, i: int) -> None:
+    """Smooth the state before sample i by the one after it."""
+    state, later = tape.states[i], tape.states[i + 1]
+    smoothed_later = np.empty_like(tape.predicted[i])
+    note_nominal(later, smoothed_later)
+    C = smoother_gain(tape.cross[i], tape.P_predicted[i])
+    if state.adrift and tilt_is_lost(state.P):
+        C[VELOCITY:ACCEL_BIAS] = 0.0
+    inject(state, np.sum(C * error_between(tape.predicted[i], smoothed_later), axis=1))
+    smoothed(state.P, C, tape.P_predicted[i], later.P)
+    state.cross[:, :3] = product(C, later.cross[:, :3])
+    state.end_covariance[0] = later.end_covariance[0]
+
+
+@compiled
+def settle(state: FilterState) -> None:
+    """Note the foot that a step leaves: pose, and covariance of the displacement from here to where the step ends."""
+    P = state.P
+    state.end_position_m[1] = state.position_m
+    state.end_yaw_rad[1] = yaw_rad(state.quat_xyzw)
+    state.end_yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
+    for i in range(3):
+        for j in range(3):
+            here = P[POSITION + i, POSITION + j]
+            together = state.cross[POSITION + i, j] + state.cross[POSITION + j, i]
+            state.displacement_covariance[i, j] = here + state.end_covariance[0, i, j] - together
+            state.end_covariance[1, i, j] = here
+    state.end_covariance[0] = state.end_covariance[1]
+    state.cross[:, :3] = P[:, POSITION : POSITION + 3]
+
+
+def estimates(tape: Tape) -> NavBlock:
+    """Return the estimates of the tape's samples."""
+    out = empty_nav(len(tape.states) - 1)
+    write_all(tape, out)
+    return out
+
+
+@compiled
+def write_all(tape: Tape, out: NavBlock) -> None:
+    """Write the estimates of all samples."""
+    for i in range(out.stamp_ns.shape[0]):
+        write(out, i, tape.states[i + 1])
