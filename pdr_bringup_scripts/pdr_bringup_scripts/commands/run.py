@@ -11,6 +11,7 @@ def run(
     json: bool = typer.Option(False, "--json", help="print the result as one JSON object"),
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
+    level_ground: bool = typer.Option(False, "--level-ground", help="hold the height of each floor; keeps stairs"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
 ) -> None:
     """Estimate the walk in a recording, offline and at full speed.
@@ -21,11 +22,12 @@ def run(
     from pdr_bringup_scripts.offline import run_recording
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.evaluation.result import in_words
-    from pdr_core.params import Params
+    from pdr_core.params import Params, changed
     from pdr_core.params_file import load_params
     from pdr_core.recording import open_recording
 
     chosen = load_params(params) if params else Params()
+    chosen = changed(chosen, "filter", level_ground=True) if level_ground else chosen
     session = open_recording(recording, column_map=columns)
     result = run_recording(session, chosen, sensor, out, Terminal())
     print(result.to_json() if json else in_words(result))

@@ -4,13 +4,14 @@ from typing import NamedTuple
 
 from pdr_core.conventions import GAP_NS
 from pdr_core.eskf.align import align
+from pdr_core.eskf.floor import forget
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
-from pdr_core.eskf.updates import level, zero_rate, zero_velocity
+from pdr_core.eskf.updates import level, stand_on_floor, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, Vector, difference, row
 from pdr_core.records import NavBlock, StanceBlock
@@ -79,6 +80,8 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
         level(now.force_mps2, sd_mps, state)
     state.adrift = False
     if zero_velocity(now.stamp_ns, now.rate_radps, sd_mps, s, state):
+        if s.level_ground:
+            stand_on_floor(sd_mps, s, state)
         stand(now.stamp_ns, state)
 
 
@@ -143,6 +146,7 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting
+    forget(state)
     state.coasting = True
 
 

@@ -40,7 +40,7 @@ GATE = [
 ]
 # The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
-# a displacement is exact, not the difference of two growing ones.
+# a displacement is exact, not the difference of two growing ones. Its last column is that with the floor's height.
 STEPS = [
     ("step_number", np.int64),                # of the next step event
     ("end_ns", np.int64, 2),
@@ -51,8 +51,13 @@ STEPS = [
     ("end_quat_xyzw", np.float64, (2, 4)),
     ("end_yaw_rad", np.float64, 2),
     ("end_yaw_sd_rad", np.float64, 2),
-    ("cross", np.float64, (SIZE, 6)),
+    ("cross", np.float64, (SIZE, 7)),
     ("displacement_covariance", np.float64, (3, 3)),
+]
+FLOOR = [
+    ("floor_m", np.float64),                  # height of the floor; NaN: none yet
+    ("floor_told", np.float64),               # what this stance has told of it [1/m^2]; 0: it is not on it
+    ("floor_covariance", np.float64, 7),      # of the error of its height with what the columns of `cross` belong to
 ]
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),
@@ -64,7 +69,7 @@ COUNTS = [                                    # what happened so far, for people
     ("normalised_innovation", np.float64),    # of the last zero-velocity update
 ]
 # fmt: on
-LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *COUNTS], align=True)
+LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *FLOOR, *COUNTS], align=True)
 FilterState = np.record
 
 
@@ -76,4 +81,5 @@ def fresh_state() -> FilterState:
     for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns"):
         state[stamp] = NO_STAMP
     state.end_ns[:] = NO_STAMP
+    state.floor_m = np.nan
     return state
