@@ -27,15 +27,9 @@ SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a s
 
 @compiled
 def apply(y: Innovation, H: Floats, K: Floats, state: FilterState) -> None:
-    """Correct the estimate, its covariance and its covariance with the clones by a measurement of the errors alone."""
-    correct_by(y, product(H, state.cross), K, state)
-
-
-@compiled
-def correct_by(y: Innovation, HC: Floats, K: Floats, state: FilterState) -> None:
-    """Correct them by a measurement that has the covariance HC with the clones."""
+    """Correct the estimate, its covariance and its covariance with the ends of the last stances and the floor."""
     inject(state, estimated_error(K, y))
-    correct_cross(state.cross, K, HC)
+    correct_cross(state.cross, K, product(H, state.cross))
     correct(state.P, K, y)
 
 
@@ -156,4 +150,7 @@ def stand_on_floor(sd_mps: float, s: Settings, state: FilterState) -> None:
     on_floor = abs(y.residual[0]) <= s.floor_limit_m
     state.floor_told = told if on_floor else 0.0
     if on_floor:
-        correct_by(y, floor.cross(state), floor.gain(y), state)
+        K = floor.gain(y)
+        state.position_m[2] += estimated_error(K, y)[floor.HEIGHT]
+        correct_cross(state.cross, K, floor.cross(state))
+        correct(state.P, K, y)
