@@ -4,12 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.held_recordings import TILES, VICON, XIO, ate2_m, held, results
 
 from pdr_core.params import Params, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.recording import open_recording
 from pdr_core.records import Floats
+from support.held_recordings import TILES, VICON, XIO, ate2_m, held, results
 
 LEVEL = changed(Params(), "filter", level_ground=True)
 RISE_M = 0.08  # a stance that is higher than the one before by more is on the next step
