@@ -54,7 +54,7 @@ STEPS = [
     ("cross", np.float64, (SIZE, 7)),
     ("displacement_covariance", np.float64, (3, 3)),
 ]
-FLOOR = [
+LEVEL_GROUND = [
     ("floor_m", np.float64),                  # height of the floor; NaN: none yet
     ("floor_told", np.float64),               # what this stance has told of it [1/m^2]; 0: it is not on it
     ("floor_covariance", np.float64, 7),      # of the error of its height with what the columns of `cross` belong to
@@ -69,7 +69,7 @@ COUNTS = [                                    # what happened so far, for people
     ("normalised_innovation", np.float64),    # of the last zero-velocity update
 ]
 # fmt: on
-LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *FLOOR, *COUNTS], align=True)
+LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *LEVEL_GROUND, *COUNTS], align=True)
 FilterState = np.record
 
 

@@ -78,8 +78,7 @@ def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent
         )
     state.step_number += first or step is not None
     begin_next(state)
-    if s.level_ground:
-        settle(s.floor_sd_m, state)
+    settle(s.floor_sd_m, state)
     return step
 
 

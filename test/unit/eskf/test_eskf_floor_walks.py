@@ -11,7 +11,7 @@ from pdr_core.eskf import ZuptFilter
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params, PlaceParams, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
-from pdr_core.records import joined
+from pdr_core.records import joined, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.simulation.foot_motion import FootCourse
 from pdr_core.simulation.gait import WALK, Stride
@@ -55,6 +55,14 @@ def test_the_rate_hardly_matters(rate_hz):
     walk = simulated("stairs", rate_hz)
     found, true = heights(walk, estimated(walk, LEVEL)[1])
     assert np.abs(found - true).max() < 0.03
+
+
+def test_a_walk_cut_into_pieces_gives_the_same_bits():
+    walk, chain = simulated("mixed"), FootInertial(LEVEL)
+    pieces = [chain.run(part(walk.imu, i, i + 37)).nav for i in range(0, len(walk.imu.stamp_ns), 37)]
+    np.testing.assert_array_equal(
+        joined([*pieces, chain.finish().nav]).position_m, estimated(walk, LEVEL)[0].position_m
+    )
 
 
 @pytest.mark.parametrize(("slope", "kept"), [(0.01, 0.1), (0.05, 0.85), (0.08, 1.0)])
