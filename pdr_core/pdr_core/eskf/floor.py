@@ -34,8 +34,13 @@ from pdr_core.maths.kalman import Innovation
 from pdr_core.records import Floats
 
 HEIGHT = POSITION + 2
-FLOOR = 6  # column of the clones
 SHIFT_S = 0.2  # half a stance: from any moment of it to the calmest
+
+
+@compiled
+def known(state: FilterState) -> bool:
+    """Return whether there is a floor to stand on."""
+    return not np.isnan(state.floor_m)
 
 
 @compiled
@@ -47,15 +52,21 @@ def information(velocity_sd_mps: float, floor_sd_m: float) -> float:
 @compiled
 def innovation(variance_m2: float, state: FilterState) -> Innovation:
     """Return the innovation of standing on the floor."""
-    HP = (state.P[HEIGHT] - state.cross[:, FLOOR]).reshape(1, SIZE)
-    S = HP[:, HEIGHT : HEIGHT + 1] - cross(state)[:, FLOOR:] + variance_m2
+    HP = (state.P[HEIGHT] - state.floor_cross[:, 0]).reshape(1, SIZE)
+    S = HP[:, HEIGHT : HEIGHT + 1] - with_itself(state) + variance_m2
     return Innovation(np.array([state.floor_m - state.position_m[2]]), HP, S, 1.0 / S)
 
 
 @compiled
-def cross(state: FilterState) -> Floats:
-    """Return H C, (1, 7): the covariance of what is measured with the clones."""
-    return (state.cross[HEIGHT] - state.floor_covariance).reshape(1, FLOOR + 1)
+def with_ends(state: FilterState) -> Floats:
+    """Return H C, (1, 6): the covariance of what is measured with the ends of the last stances."""
+    return state.cross[HEIGHT : HEIGHT + 1] - state.floor_ends
+
+
+@compiled
+def with_itself(state: FilterState) -> Floats:
+    """Return H C, (1, 1): the covariance of what is measured with the height of the floor."""
+    return state.floor_cross[HEIGHT : HEIGHT + 1] - state.floor_variance_m2
 
 
 @compiled
@@ -70,9 +81,9 @@ def settle(floor_sd_m: float, state: FilterState) -> None:
     """Close the stance that has just become the confirmed one: if it told nothing of the floor, it shows a new one."""
     if state.floor_told == 0.0:
         state.floor_m = state.end_position_m[0, 2]
-        state.cross[:, FLOOR] = state.cross[:, 2]
-        state.floor_covariance[:3] = state.end_covariance[0, 2]
-        state.floor_covariance[FLOOR] = state.end_covariance[0, 2, 2] + floor_sd_m**2
+        state.floor_cross[:, 0] = state.cross[:, 2]
+        state.floor_ends[0, :3] = state.end_covariance[0, 2]
+        state.floor_variance_m2 = state.end_covariance[0, 2, 2] + floor_sd_m**2
     state.floor_told = 0.0
 
 

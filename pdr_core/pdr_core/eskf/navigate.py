@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 from pdr_core.conventions import GAP_NS
+from pdr_core.eskf import floor
 from pdr_core.eskf.align import align
-from pdr_core.eskf.floor import forget
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
 from pdr_core.eskf.process import carry, cross_gap, link, noise, propagate_covariance
@@ -80,8 +80,7 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
         level(now.force_mps2, sd_mps, state)
     state.adrift = False
     if zero_velocity(now.stamp_ns, now.rate_radps, sd_mps, s, state):
-        if s.level_ground:
-            stand_on_floor(sd_mps, s, state)
+        stand_on_floor(sd_mps, s, state)
         stand(now.stamp_ns, state)
 
 
@@ -111,6 +110,8 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> None:
     q = noise(now.accel_sd_mps2, now.gyro_sd_radps, dt_s, s.process)
     propagate_covariance(state.P, k, q)
     carry(k, state.cross)
+    if floor.known(state):
+        carry(k, state.floor_cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
     if state.adrift:
@@ -146,7 +147,7 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting
-    forget(state)
+    floor.forget(state)
     state.coasting = True
 
 

@@ -40,7 +40,7 @@ GATE = [
 ]
 # The ends of the last two stances: row 0 the confirmed one, row 1 one that may still go on; NO_STAMP: none. `cross`
 # holds the covariances of the errors now with the position errors at both (stochastic cloning): so the covariance of
-# a displacement is exact, not the difference of two growing ones. Its last column is that with the floor's height.
+# a displacement is exact, not the difference of two growing ones.
 STEPS = [
     ("step_number", np.int64),                # of the next step event
     ("end_ns", np.int64, 2),
@@ -51,13 +51,15 @@ STEPS = [
     ("end_quat_xyzw", np.float64, (2, 4)),
     ("end_yaw_rad", np.float64, 2),
     ("end_yaw_sd_rad", np.float64, 2),
-    ("cross", np.float64, (SIZE, 7)),
+    ("cross", np.float64, (SIZE, 6)),
     ("displacement_covariance", np.float64, (3, 3)),
 ]
 LEVEL_GROUND = [
-    ("floor_m", np.float64),                  # height of the floor; NaN: none yet
+    ("floor_m", np.float64),                  # height of the floor; NaN: none
     ("floor_told", np.float64),               # what this stance has told of it [1/m^2]; 0: it is not on it
-    ("floor_covariance", np.float64, 7),      # of the error of its height with what the columns of `cross` belong to
+    ("floor_cross", np.float64, (SIZE, 1)),   # covariance of the errors now with that of its height
+    ("floor_ends", np.float64, (1, 6)),       # and of that with the position errors at both stance ends
+    ("floor_variance_m2", np.float64),
 ]
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),

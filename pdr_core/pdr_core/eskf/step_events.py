@@ -9,7 +9,7 @@ import numpy as np
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
-from pdr_core.eskf.floor import FLOOR, settle
+from pdr_core.eskf.floor import settle
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
@@ -40,7 +40,7 @@ def stand(stamp_ns: int, state: FilterState) -> None:
         for j in range(3):
             state.cross[i, 3 + j] = P[i, POSITION + j]
     for j in range(3):
-        state.floor_covariance[3 + j] = state.cross[POSITION + j, FLOOR]
+        state.floor_ends[0, 3 + j] = state.floor_cross[POSITION + j, 0]
 
 
 @compiled
@@ -78,15 +78,16 @@ def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent
         )
     state.step_number += first or step is not None
     begin_next(state)
-    settle(s.floor_sd_m, state)
+    if s.level_ground:
+        settle(s.floor_sd_m, state)
     return step
 
 
 def begin_next(state: FilterState) -> None:
     """Make the end of the stance noted last the one from which the next step begins."""
     state.excursion_m = 0.0
-    state.cross[:, :3] = state.cross[:, 3:6]
-    state.floor_covariance[:3] = state.floor_covariance[3:6]
+    state.cross[:, :3] = state.cross[:, 3:]
+    state.floor_ends[:, :3] = state.floor_ends[:, 3:]
     for name in ("end_ns", "end_position_m", "end_covariance", "end_quat_xyzw", "end_yaw_rad", "end_yaw_sd_rad"):
         state[name][0] = state[name][1]
     state.end_ns[1] = NO_STAMP

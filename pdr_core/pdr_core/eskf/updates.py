@@ -30,6 +30,8 @@ def apply(y: Innovation, H: Floats, K: Floats, state: FilterState) -> None:
     """Correct the estimate, its covariance and its covariance with the ends of the last stances and the floor."""
     inject(state, estimated_error(K, y))
     correct_cross(state.cross, K, product(H, state.cross))
+    if floor.known(state):
+        correct_cross(state.floor_cross, K, product(H, state.floor_cross))
     correct(state.P, K, y)
 
 
@@ -144,7 +146,7 @@ def level(force_mps2: Vector, sd_mps: float, state: FilterState) -> None:
 def stand_on_floor(sd_mps: float, s: Settings, state: FilterState) -> None:
     """Tell the filter that a foot that stands, with a velocity noise, does so on the floor, if it is near enough."""
     told = floor.information(sd_mps, s.floor_sd_m)
-    if told <= state.floor_told:
+    if not floor.known(state) or told <= state.floor_told:
         return
     y = floor.innovation(1.0 / (told - state.floor_told), state)
     on_floor = abs(y.residual[0]) <= s.floor_limit_m
@@ -152,5 +154,6 @@ def stand_on_floor(sd_mps: float, s: Settings, state: FilterState) -> None:
     if on_floor:
         K = floor.gain(y)
         state.position_m[2] += estimated_error(K, y)[floor.HEIGHT]
-        correct_cross(state.cross, K, floor.cross(state))
+        correct_cross(state.cross, K, floor.with_ends(state))
+        correct_cross(state.floor_cross, K, floor.with_itself(state))
         correct(state.P, K, y)
