@@ -184,6 +184,14 @@ def test_the_first_stance_shows_the_first_floor():
     assert standing_filter().state.floor_m == pytest.approx(0.0, abs=1e-6)
 
 
+def test_a_swing_carries_the_floor_like_the_end_of_the_stance_that_showed_it():
+    f = ZuptFilter(LEVEL.filter, PlaceParams())
+    f.run(judged(standing(1.0), np.ones(200, bool)))
+    f.run(judged(standing(1.0, start_ns=10**9), np.zeros(200, bool)))
+    assert f.state.floor_m == f.state.end_position_m[0, Z]
+    np.testing.assert_array_equal(f.state.floor_cross[:, 0], f.state.cross[:, Z])
+
+
 def test_a_gap_forgets_the_floor_and_the_next_stance_shows_one():
     f = standing_filter()
     f.run(judged(standing(0.01, start_ns=9 * 10**9), np.zeros(2, bool)))
