@@ -165,6 +165,23 @@ class FilterParams:
     step_turn_min_rad: float = parameter(
         0.35, "unless it turns by so much", unit="rad", bounds=(0.0, 3.15), source="20 deg: more than a wobble"
     )
+    level_ground: bool = parameter(
+        False, "a foot that stands at nearly the height of the floor stands on it: for walks in buildings, not on ramps"
+    )
+    floor_limit_m: float = parameter(
+        0.08,
+        "a foot that stands so much higher or lower than the floor is on another one",
+        unit="m",
+        bounds=(0.0, 1.0),
+        source="half a riser, which is 0.15 to 0.20 m",
+    )
+    floor_sd_m: float = parameter(
+        0.01,
+        "how much the heights of a foot differ that stands on one floor",
+        unit="m",
+        bounds=(1e-4, 1.0),
+        source="measured on real walks: 0.004 to 0.021, median 0.008",
+    )
     heading_feedback: bool = parameter(
         False, "every step waits for its heading observation: set it where a node or stage gives them"
     )

@@ -37,6 +37,8 @@ def test_vicon_trials(recordings):
         assert (session.format, truth.kind) == ("pyshoe_vicon", TruthKind.POSITION)
         assert (truth.stamp_ns == block.stamp_ns).all()
         assert truth.position_m.shape == (counts[-1], 3)
+        lowest_m, middle_m, highest_m = np.percentile(truth.position_m[:, 2], [0, 50, 100])
+        assert highest_m - middle_m > 1.5 * (middle_m - lowest_m)  # feet swing upwards
     assert (min(counts), max(counts), sum(counts)) == (3310, 15400, 183562)
 
 

@@ -92,6 +92,17 @@ def test_an_unknown_name_is_answered_with_the_known_ones(option, folder):
     assert re.search(known, answer.stderr)
 
 
+def test_level_ground_is_an_option_and_a_parameter(folder, tmp_path):
+    (tmp_path / "level.yaml").write_text("/**: {ros__parameters: {filter: {level_ground: true}}}\n")
+    done("run", folder / "walk", "--level-ground", "--out", tmp_path / "option")
+    done("run", folder / "walk", "--params", tmp_path / "level.yaml", "--out", tmp_path / "file")
+    option, file, without = (
+        (where / "trajectory.tum").read_bytes()
+        for where in (tmp_path / "option", tmp_path / "file", folder / "result of walk")
+    )
+    assert option == file != without
+
+
 def test_what_exists_stays_unless_force_is_given(folder, tmp_path):
     done("convert", folder / "walk", tmp_path / "copy.mcap")
     answer = pdr("convert", folder / "walk", tmp_path / "copy.mcap")

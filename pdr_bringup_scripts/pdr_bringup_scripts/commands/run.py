@@ -11,6 +11,7 @@ def run(
     json: bool = typer.Option(False, "--json", help="print the result as one JSON object"),
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
+    level_ground: bool = typer.Option(False, "--level-ground", help="hold the height of each floor; keeps stairs"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
     detector: str = typer.Option(None, help="what tells a standing foot: adaptive, glrt ...; default: as in the file"),
     gate: str = typer.Option(None, help="what sorts out false stances by their time: none, gait_phases or kmeans"),
@@ -31,6 +32,7 @@ def run(
     chosen = load_params(params) if params else Params()
     named = {"detector": detector, "time_gate": gate}
     chosen = changed(chosen, "stance", **{name: value for name, value in named.items() if value is not None})
+    chosen = changed(chosen, "filter", level_ground=True) if level_ground else chosen
     session = open_recording(recording, column_map=columns)
     result = run_recording(session, chosen, sensor, out, Terminal(), smooth)
     print(result.to_json() if json else in_words(result))

@@ -33,4 +33,7 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         merge_ns=round(p.step_merge_s * NANOSECONDS),
         step_min_m=p.step_min_m,
         step_turn_min_rad=p.step_turn_min_rad,
+        level_ground=p.level_ground,
+        floor_limit_m=p.floor_limit_m,
+        floor_sd_m=p.floor_sd_m,
     )

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from pdr_core.conventions import GAP_NS
+from pdr_core.eskf import floor
 from pdr_core.eskf.align import align
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
@@ -10,7 +11,7 @@ from pdr_core.eskf.process import NO_TIME, Link, carry, cross_gap, link, noise, 
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
-from pdr_core.eskf.updates import level, zero_rate, zero_velocity
+from pdr_core.eskf.updates import level, stand_on_floor, zero_rate, zero_velocity
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, difference, row
 from pdr_core.records import NavBlock, StanceBlock
@@ -98,6 +99,7 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
         level(now.force_mps2, sd_mps, state)
     state.adrift = False
     if zero_velocity(now.stamp_ns, now.rate_radps, sd_mps, s, state):
+        stand_on_floor(sd_mps, s, state)
         stand(now.stamp_ns, state)
 
 
@@ -127,6 +129,8 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> Link:
     q = noise(now.accel_sd_mps2, now.gyro_sd_radps, dt_s, s.process)
     propagate_covariance(state.P, k, q)
     carry(k, state.cross)
+    if floor.known(state):
+        carry(k, state.floor_cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
     return k
@@ -159,6 +163,7 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting
+    floor.forget(state)
     state.coasting = True
 
 

@@ -24,3 +24,6 @@ class Settings(NamedTuple):
     merge_ns: int
     step_min_m: float
     step_turn_min_rad: float
+    level_ground: bool
+    floor_limit_m: float
+    floor_sd_m: float

@@ -57,6 +57,13 @@ STEPS = [
     ("cross", np.float64, (SIZE, 6)),
     ("displacement_covariance", np.float64, (3, 3)),
 ]
+LEVEL_GROUND = [
+    ("floor_m", np.float64),                  # height of the floor; NaN: none
+    ("floor_told", np.float64),               # what this stance has told of it [1/m^2]; 0: it is not on it
+    ("floor_cross", np.float64, (SIZE, 1)),   # covariance of the errors now with that of its height
+    ("floor_ends", np.float64, (1, 6)),       # and of that with the position errors at both stance ends
+    ("floor_variance_m2", np.float64),
+]
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),
     ("accepted", np.int64),                   # zero-velocity updates that agree with the estimate
@@ -67,7 +74,7 @@ COUNTS = [                                    # what happened so far, for people
     ("normalised_innovation", np.float64),    # of the last zero-velocity update
 ]
 # fmt: on
-LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *COUNTS], align=True)
+LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *LEVEL_GROUND, *COUNTS], align=True)
 FilterState = np.record
 
 
@@ -79,4 +86,5 @@ def fresh_state() -> FilterState:
     for stamp in ("last_ns", "alignment_start_ns", "last_accepted_ns"):
         state[stamp] = NO_STAMP
     state.end_ns[:] = NO_STAMP
+    state.floor_m = np.nan
     return state

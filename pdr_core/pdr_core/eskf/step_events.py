@@ -9,6 +9,7 @@ import numpy as np
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
+from pdr_core.eskf.floor import settle
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
@@ -40,6 +41,8 @@ def stand(stamp_ns: int, state: FilterState) -> None:
     for i in range(SIZE):
         for j in range(3):
             state.cross[i, 3 + j] = P[i, POSITION + j]
+    for j in range(3):
+        state.floor_ends[0, 3 + j] = state.floor_cross[POSITION + j, 0]
 
 
 @compiled
@@ -78,6 +81,8 @@ def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent
         )
     state.step_number += first or step is not None
     begin_next(state)
+    if s.level_ground:
+        settle(s.floor_sd_m, state)
     return step
 
 
@@ -85,6 +90,7 @@ def begin_next(state: FilterState) -> None:
     """Make the end of the stance noted last the one from which the next step begins."""
     state.excursion_m = 0.0
     state.cross[:, :3] = state.cross[:, 3:]
+    state.floor_ends[:, :3] = state.floor_ends[:, 3:]
     for name in ENDS:
         state[name][0] = state[name][1]
     state.end_ns[1] = NO_STAMP

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import gravity, heading, zaru, zupt
+from pdr_core.eskf import floor, gravity, heading, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.eskf.known_yaw import given_yaw
 from pdr_core.eskf.settings import Settings
@@ -19,7 +19,7 @@ from pdr_core.maths.kalman import (
     normalised_squared,
 )
 from pdr_core.maths.quaternion import from_rotation_vector, multiply, normalised
-from pdr_core.maths.vector import Vector, difference, norm
+from pdr_core.maths.vector import Vector, difference, norm, product
 from pdr_core.records import Floats
 
 SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a shock
@@ -27,9 +27,11 @@ SHORTEST_SWING_S = 0.1  # in a shorter time a wrong tilt cannot be told from a s
 
 @compiled
 def apply(y: Innovation, H: Floats, K: Floats, state: FilterState) -> None:
-    """Correct the estimate, its covariance and its covariance with the ends of the last stances."""
+    """Correct the estimate, its covariance and its covariance with the ends of the last stances and the floor."""
     inject(state, estimated_error(K, y))
-    correct_cross(state.cross, K, H)
+    correct_cross(state.cross, K, product(H, state.cross))
+    if floor.known(state):
+        correct_cross(state.floor_cross, K, product(H, state.floor_cross))
     correct(state.P, K, y)
 
 
@@ -138,3 +140,20 @@ def level(force_mps2: Vector, sd_mps: float, state: FilterState) -> None:
     R = gravity.noise(sd_mps, state.gravity_mps2)
     y = innovation(state.P, gravity.H, R, gravity.residual(state.quat_xyzw, force))
     apply(y, gravity.H, zupt.without_gyro_bias(gain(given_yaw(state.P, y))), state)
+
+
+@compiled
+def stand_on_floor(sd_mps: float, s: Settings, state: FilterState) -> None:
+    """Tell the filter that a foot that stands, with a velocity noise, does so on the floor, if it is near enough."""
+    told = floor.information(sd_mps, s.floor_sd_m)
+    if not floor.known(state) or told <= state.floor_told:
+        return
+    y = floor.innovation(1.0 / (told - state.floor_told), state)
+    on_floor = abs(y.residual[0]) <= s.floor_limit_m
+    state.floor_told = told if on_floor else 0.0
+    if on_floor:
+        K = floor.gain(y)
+        state.position_m[2] += estimated_error(K, y)[floor.HEIGHT]
+        correct_cross(state.cross, K, floor.with_ends(state))
+        correct_cross(state.floor_cross, K, floor.with_itself(state))
+        correct(state.P, K, y)

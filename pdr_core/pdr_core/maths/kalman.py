@@ -73,9 +73,11 @@ def estimated_error(K: Floats, y: Innovation) -> Floats:
 
 
 @compiled
-def correct_cross(C: Floats, K: Floats, H: Floats) -> None:
-    """Replace C, (n, k), the covariance of the state with something that is not corrected, by (I - K H) C."""
-    HC = product(H, C)
+def correct_cross(C: Floats, K: Floats, HC: Floats) -> None:
+    """Correct C, (n, k), the covariance of the state with something that is not corrected, in place.
+
+    HC, (m, k), is the covariance of the measurement with it: H C, and more where the measurement shows it too.
+    """
     for m in range(K.shape[1]):
         for i in range(C.shape[0]):
             for j in range(C.shape[1]):

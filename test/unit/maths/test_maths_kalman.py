@@ -51,7 +51,7 @@ def test_the_estimated_error_and_the_cross_covariance_are_plain_products(seed):
     np.testing.assert_allclose(
         kalman.estimated_error(K, kalman.innovation(P, H, R, residual)), K @ residual, atol=1e-12
     )
-    kalman.correct_cross(C, K, H)
+    kalman.correct_cross(C, K, H @ C)
     np.testing.assert_allclose(C, expected, atol=1e-11)
 
 

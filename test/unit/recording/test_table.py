@@ -167,7 +167,7 @@ def test_a_vicon_trial_brings_its_truth_with_z_up(tmp_path):
     assert block.gyro_radps[1].tolist() == [9, 10, 11]
     assert truth.kind is TruthKind.POSITION
     assert truth.stamp_ns.tolist() == block.stamp_ns.tolist() == [0, 5_000_000, 10_000_000, 15_000_000, 20_000_000]
-    assert truth.position_m[3].tolist() == [1, -2, -3]
+    assert truth.position_m[3].tolist() == [1, -2, 3]
 
 
 def test_a_mat_file_with_times_that_are_none_leaves_those_rows_out(tmp_path):
