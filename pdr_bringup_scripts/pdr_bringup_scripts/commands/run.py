@@ -11,10 +11,10 @@ def run(
     json: bool = typer.Option(False, "--json", help="print the result as one JSON object"),
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
-    level_ground: bool = typer.Option(False, "--level-ground", help="hold the height of each floor; keeps stairs"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
     detector: str = typer.Option(None, help="what tells a standing foot: adaptive, glrt ...; default: as in the file"),
     gate: str = typer.Option(None, help="what sorts out false stances by their time: none, gait_phases or kmeans"),
+    level_ground: bool = typer.Option(False, "--level-ground", help="hold the height of each floor; keeps stairs"),
     smooth: bool = typer.Option(False, "--smooth", help="let every estimate know the whole recording: go back over it"),
 ) -> None:
     """Estimate the walk in a recording, offline and at full speed.
