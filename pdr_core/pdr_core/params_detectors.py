@@ -15,51 +15,51 @@ class DetectorParams:
         0.035, "length of the centred window of the GLRT", unit="s", bounds=(0.0, 1.0), source="Gui eq. 8, W"
     )
     glrt_threshold: float = parameter(
-        2000.0, "a foot stands where its statistic is at most this", bounds=(1e-3, 1e9), source=MEASURED
+        6000.0, "a foot stands where its statistic is at most this", bounds=(1e-3, 1e9), source=MEASURED
     )
     angular_rate_energy_window_s: float = parameter(
-        0.05, "length of the centred window of the angular rate energy", unit="s", bounds=(0.0, 1.0)
+        0.035, "length of the centred window of the angular rate energy", unit="s", bounds=(0.0, 1.0)
     )
     angular_rate_energy_threshold: float = parameter(
-        0.5,
+        1.4,
         "a foot stands where its mean square rate is at most this",
         unit="rad^2/s^2",
         bounds=(1e-9, 1e9),
         source=MEASURED,
     )
     acceleration_moving_variance_window_s: float = parameter(
-        0.1, "length of the centred window of the acceleration moving variance", unit="s", bounds=(0.0, 1.0)
+        0.075, "length of the centred window of the acceleration moving variance", unit="s", bounds=(0.0, 1.0)
     )
     acceleration_moving_variance_threshold: float = parameter(
-        0.7,
+        7.0,
         "a foot stands where the variance of its specific force is at most this",
         unit="m^2/s^4",
         bounds=(1e-9, 1e9),
         source=MEASURED,
     )
     acceleration_magnitude_window_s: float = parameter(
-        0.075, "length of the centred window of the acceleration magnitude", unit="s", bounds=(0.0, 1.0)
+        0.1, "length of the centred window of the acceleration magnitude", unit="s", bounds=(0.0, 1.0)
     )
     acceleration_magnitude_threshold: float = parameter(
-        0.1,
+        20.0,
         "a foot stands where the mean square of |a| - g is at most this",
         unit="m^2/s^4",
         bounds=(1e-9, 1e9),
         source=MEASURED,
     )
-    mbgtd_window_s: float = parameter(0.075, "length of the centred window of the MBGTD", unit="s", bounds=(0.0, 1.0))
+    mbgtd_window_s: float = parameter(0.05, "length of the centred window of the MBGTD", unit="s", bounds=(0.0, 1.0))
     mbgtd_threshold: float = parameter(
-        1.4,
+        5.0,
         "a foot stands where the longest mean edge of a cut is at most this",
         unit="m/s^2",
         bounds=(1e-9, 1e9),
         source=MEASURED,
     )
     three_conditions_window_s: float = parameter(
-        0.05, "length of the centred window of the three conditions", unit="s", bounds=(0.0, 1.0), source="Qiu W"
+        0.035, "length of the centred window of the three conditions", unit="s", bounds=(0.0, 1.0), source="Qiu W"
     )
     three_conditions_force_threshold: float = parameter(
-        0.1,
+        0.2,
         "a foot stands where |a| differs from g by at most this share of g",
         bounds=(1e-9, 1e9),
         source="Qiu eq. 22, lambda_1; " + MEASURED,
@@ -72,7 +72,7 @@ class DetectorParams:
         source="Qiu eq. 22, lambda_2; " + MEASURED,
     )
     three_conditions_rate_threshold: float = parameter(
-        2.0,
+        1.4,
         "and the mean square rate is at most this",
         unit="rad^2/s^2",
         bounds=(1e-9, 1e9),
