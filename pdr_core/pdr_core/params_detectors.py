@@ -28,28 +28,28 @@ class DetectorParams:
         source=MEASURED,
     )
     acceleration_moving_variance_window_s: float = parameter(
-        0.075, "length of the centred window of the acceleration moving variance", unit="s", bounds=(0.0, 1.0)
+        0.1, "length of the centred window of the acceleration moving variance", unit="s", bounds=(0.0, 1.0)
     )
     acceleration_moving_variance_threshold: float = parameter(
-        7.0,
+        0.7,
         "a foot stands where the variance of its specific force is at most this",
         unit="m^2/s^4",
         bounds=(1e-9, 1e9),
         source=MEASURED,
     )
     acceleration_magnitude_window_s: float = parameter(
-        0.1, "length of the centred window of the acceleration magnitude", unit="s", bounds=(0.0, 1.0)
+        0.075, "length of the centred window of the acceleration magnitude", unit="s", bounds=(0.0, 1.0)
     )
     acceleration_magnitude_threshold: float = parameter(
-        20.0,
+        0.1,
         "a foot stands where the mean square of |a| - g is at most this",
         unit="m^2/s^4",
         bounds=(1e-9, 1e9),
         source=MEASURED,
     )
-    mbgtd_window_s: float = parameter(0.05, "length of the centred window of the MBGTD", unit="s", bounds=(0.0, 1.0))
+    mbgtd_window_s: float = parameter(0.075, "length of the centred window of the MBGTD", unit="s", bounds=(0.0, 1.0))
     mbgtd_threshold: float = parameter(
-        5.0,
+        1.4,
         "a foot stands where the longest mean edge of a cut is at most this",
         unit="m/s^2",
         bounds=(1e-9, 1e9),
