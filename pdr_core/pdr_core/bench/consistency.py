@@ -127,7 +127,7 @@ def estimated(block: StanceBlock, campaign: Campaign) -> Track:
     tape = recorded(block, settings(campaign.params.filter, campaign.params.place), fresh_state())
     nis = tape.states["normalised_innovation"][1:].copy()
     if campaign.smoothed:
-        smooth(tape, np.zeros(length(block), np.bool_))
+        smooth(tape, np.zeros(length(block), np.bool_), heights_stay=False)
     now, errors = tape.states[1:], slice(VELOCITY, ATTITUDE + 3)
     return Track(now["position_m"], now["velocity_mps"], now["quat_xyzw"], now["P"][:, errors, errors], nis)
 

@@ -60,7 +60,7 @@ class Smoother:
         for segment in self._segments:
             block, tape, flags = self._smoothed(segment, ends)
             stands |= {segment.numbers[i]: tape.states[i + 1].copy() for i in np.flatnonzero(flags)}
-            mine = [restated(step, stands) for step in steps if step.samples[1] in segment.numbers]
+            mine = [self._restated(step, stands) for step in steps if step.samples[1] in segment.numbers]
             seen((done := done + 1) / (2 * len(self._segments)))
             yield block, estimates(tape), mine
 
@@ -69,18 +69,21 @@ class Smoother:
         tape, flags = recorded(block, self._settings, segment.before), np.zeros(len(numbers), np.bool_)
         flags[ends[(ends >= numbers.start) & (ends < numbers.stop)] - numbers.start] = True
         tape.states[-1] = segment.smoothed_after
-        smooth(tape, flags)
+        smooth(tape, flags, self._settings.level_ground)
         return block, tape, flags
 
-
-def restated(step: StepEvent, stands: dict[int, FilterState]) -> StepEvent:
-    """Return a step as the smoothed states at its beginning and its end have it."""
-    start, end = (stands[number] for number in step.samples)
-    return replace(
-        step,
-        position_m=end["end_position_m"][1].copy(),
-        displacement_m=end["end_position_m"][1] - start["end_position_m"][1],
-        displacement_covariance_m2=start["displacement_covariance"].copy(),
-        yaw_rad=float(end["end_yaw_rad"][1]),
-        yaw_sd_rad=float(end["end_yaw_sd_rad"][1]),
-    )
+    def _restated(self, step: StepEvent, stands: dict[int, FilterState]) -> StepEvent:
+        """Return a step as the smoothed states at its beginning and its end have it."""
+        start, end = (stands[number] for number in step.samples)
+        covariance = start["displacement_covariance"].copy()
+        if self._settings.level_ground:  # the height is the filter's
+            covariance[2, :] = covariance[:, 2] = 0.0
+            covariance[2, 2] = step.displacement_covariance_m2[2, 2]
+        return replace(
+            step,
+            position_m=end["end_position_m"][1].copy(),
+            displacement_m=end["end_position_m"][1] - start["end_position_m"][1],
+            displacement_covariance_m2=covariance,
+            yaw_rad=float(end["end_yaw_rad"][1]),
+            yaw_sd_rad=float(end["end_yaw_sd_rad"][1]),
+        )

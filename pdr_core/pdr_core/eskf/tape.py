@@ -8,11 +8,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, SIZE
 from pdr_core.eskf.navigate import predict, sample, update
 from pdr_core.eskf.process import carry, forget_velocity
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import LAYOUT, FilterState
+from pdr_core.eskf.step_events import stance_is_over, step_taken
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import conjugate, multiply, to_rotation_vector
 from pdr_core.records import Floats, StanceBlock, length
@@ -34,14 +36,18 @@ def recorded(block: StanceBlock, s: Settings, state: FilterState) -> Tape:
     n = length(block)
     tape = Tape(np.zeros(n + 1, LAYOUT), np.empty((n, NOMINAL)), np.empty((n, SIZE, SIZE)), np.empty((n, SIZE, SIZE)))
     tape.states[0] = state
-    record(block, s, state.copy(), tape)
+    running, done = state.copy(), 0
+    while (done := record(block, done, s, running, tape)) < n:
+        step_taken(running, s, NO_STAMP)
     return tape
 
 
 @compiled
-def record(block: StanceBlock, s: Settings, state: FilterState, tape: Tape) -> None:
-    """Run the filter and write the tape."""
-    for i in range(block.stance.shape[0]):
+def record(block: StanceBlock, start: int, s: Settings, state: FilterState, tape: Tape) -> int:
+    """Run the filter and write the tape, until a stance is over; return the next sample to take."""
+    for i in range(start, block.stance.shape[0]):
+        if stance_is_over(block.imu.stamp_ns[i], s.merge_ns, state):
+            return i
         now = sample(block, i)
         tape.cross[i] = state.P
         carry(predict(now, s, state), tape.cross[i])
@@ -54,6 +60,7 @@ def record(block: StanceBlock, s: Settings, state: FilterState, tape: Tape) -> N
         for j in range(SIZE):
             tape.P_predicted[i, j, j] += state.doubt[j]  # what was doubted had gone wrong before
         tape.states[i + 1] = state
+    return block.stance.shape[0]
 
 
 @compiled

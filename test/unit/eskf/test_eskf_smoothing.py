@@ -20,7 +20,7 @@ def taped(block=JUDGED, **filter_params):
 
 def smoothed(block=JUDGED, **filter_params):
     tape = taped(block, **filter_params)
-    smooth(tape, NO_ENDS[: length(block)])
+    smooth(tape, NO_ENDS[: length(block)], filter_params.get("level_ground", False))
     return tape
 
 
@@ -32,10 +32,20 @@ def error_mps(tape):
     return np.linalg.norm(tape.states["velocity_mps"][1:] - WALK.motion.velocity_mps, axis=1)[200:]
 
 
-def test_the_tape_holds_what_the_filter_says():
-    nav, _ = fresh().run(JUDGED)
-    for a, b in zip(estimates(taped()), nav, strict=True):
+@pytest.mark.parametrize("level_ground", [False, True])
+def test_the_tape_holds_what_the_filter_says(level_ground):
+    nav, _ = fresh(level_ground=level_ground).run(JUDGED)
+    for a, b in zip(estimates(taped(level_ground=level_ground)), nav, strict=True):
         np.testing.assert_array_equal(a, b)
+
+
+def test_on_level_ground_the_height_stays_and_the_rest_is_smoothed():
+    before, level, free = taped(level_ground=True), smoothed(level_ground=True), smoothed()
+    np.testing.assert_array_equal(level.states["position_m"][:, 2], before.states["position_m"][:, 2])
+    np.testing.assert_array_equal(level.states["P"][:, 2, 2], before.states["P"][:, 2, 2])
+    np.testing.assert_allclose(level.states["position_m"][:, :2], free.states["position_m"][:, :2], atol=5e-4)
+    np.testing.assert_allclose(level.states["velocity_mps"], free.states["velocity_mps"], atol=2e-3)
+    assert (np.linalg.eigvalsh(level.states["P"])[:, 0] > 0.0).all()
 
 
 def test_at_the_end_it_is_the_filter():

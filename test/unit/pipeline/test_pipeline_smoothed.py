@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.metrics import path_length_m
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial, SmoothedFoot
@@ -89,3 +90,24 @@ def test_hardly_any_sample(count):
     chain.run(NO_SAMPLES)
     chain.run(part(straight_walk(1).imu, 0, count))
     assert sum(len(out.nav.stamp_ns) for out in chain.finish()) == count
+
+
+def test_a_displacement_keeps_a_covariance_where_the_tilt_was_lost():
+    sim = simulated_walk(SimulationParams(motion="smooth", walk_length_m=24.0, sample_rate_hz=200.0))
+    n = len(sim.imu.stamp_ns)
+    stamp_ns, gyro_sd, rate = sim.imu.stamp_ns.copy(), sim.imu.gyro_sd_radps.copy(), sim.imu.gyro_radps.copy()
+    stamp_ns[n // 3 + 40 :] += 60 * NANOSECONDS
+    off = slice(2 * n // 3, 2 * n // 3 + 500)
+    gyro_sd[off], rate[off] = -1.0, 0.0
+    _, steps = smoothed(sim.imu._replace(stamp_ns=stamp_ns, gyro_sd_radps=gyro_sd, gyro_radps=rate), Params())
+    assert len(steps) > 5
+    assert min(np.linalg.eigvalsh(step.displacement_covariance_m2)[0] for step in steps) > 0.0
+
+
+def test_stairs_stay_stairs_where_floors_are_tied_and_smoothed():
+    level = changed(Params(), "filter", level_ground=True)
+    imu = simulated_walk(SimulationParams(motion="smooth", walk="stairs", sample_rate_hz=100.0)).imu
+    (_, before), (_, after) = filtered(imu, level), smoothed(imu, level)
+    assert [s.position_m[2] for s in after] == [s.position_m[2] for s in before]
+    assert [s.displacement_covariance_m2[2, 2] for s in after] == [s.displacement_covariance_m2[2, 2] for s in before]
+    assert max(s.position_m[2] for s in after) > 0.5
