@@ -37,9 +37,9 @@ class Smoother:
         self._segments: list[Segment] = []
 
     def keep(self, before: FilterState, block: StanceBlock) -> None:
-        """Keep samples, none of which waits for an answer, and the filter's memory before them."""
+        """Keep samples, none of which waits for an answer, and a copy of the filter's memory before them."""
         if not self._segments or len(self._segments[-1].numbers) >= SEGMENT:
-            self._segments.append(Segment(before.copy()))
+            self._segments.append(Segment(before))
         self._segments[-1].blocks.append(block)
 
     def smoothed(
