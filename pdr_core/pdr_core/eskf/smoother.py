@@ -49,7 +49,7 @@ class Smoother:
 
         First from the end to the beginning for the state at the borders, then forward. `seen` is told the share done.
         """
-        ends = np.array(sorted({number for step in steps for number in step.samples}), np.int64)
+        ends = np.array(sorted({number for step in steps for number in step.sample_numbers}), np.int64)
         done, after = 0, last.copy()
         for segment in reversed(self._segments):
             segment.smoothed_after = after
@@ -60,7 +60,7 @@ class Smoother:
         for segment in self._segments:
             block, tape, flags = self._smoothed(segment, ends)
             stands |= {segment.numbers[i]: tape.states[i + 1].copy() for i in np.flatnonzero(flags)}
-            mine = [restated(step, stands) for step in steps if step.samples[1] in segment.numbers]
+            mine = [restated(step, stands) for step in steps if step.sample_numbers[1] in segment.numbers]
             seen((done := done + 1) / (2 * len(self._segments)))
             yield block, estimates(tape), mine
 
@@ -75,7 +75,7 @@ class Smoother:
 
 def restated(step: StepEvent, stands: dict[int, FilterState]) -> StepEvent:
     """Return a step as the smoothed states at its beginning and its end have it."""
-    start, end = (stands[number] for number in step.samples)
+    start, end = (stands[number] for number in step.sample_numbers)
     return replace(
         step,
         position_m=end["end_position_m"][1].copy(),
