@@ -83,7 +83,8 @@ def groups(recordings: Path) -> Groups:
     found = {}
     for folder, (pattern, count) in FILES.items():
         paths = sorted((recordings / folder).glob(pattern))
-        found[folder] = [walk for path in paths for walk in walks(open_recording(path), path.stem)]
+        sessions = {path.stem: open_recording(path) for path in paths}
+        found[folder] = [walk_of(s, sensor, name) for name, s in sessions.items() for sensor in s.sensors.values()]
         assert len(found[folder]) == count, folder
     return found
 
