@@ -35,7 +35,9 @@ def run_recording(
     run = run_sensor_smoothed if hindsight.smoothed else run_sensor
     if len(chosen) == 1:
         return run(session, chosen[0], params, out, terminal, hindsight.two_passes)
-    results = {s.name: run(session, s, params, out / s.name if out else None, terminal, hindsight.two_passes) for s in chosen}
+    results = {
+        s.name: run(session, s, params, out / s.name if out else None, terminal, hindsight.two_passes) for s in chosen
+    }
     together = SensorsResult(str(session.path), session.format, results)
     if out:
         (out / "result.json").write_text(together.to_json() + "\n")
@@ -93,9 +95,7 @@ def run_sensor(
             samples += length(piece)
             show(f"{book.duration_s:.0f} s of the recording, {len(book.steps)} strides")
         book.keep(pipeline.finish())
-        return book.close(
-            PIPELINE, params, samples, watch.seconds, pipeline.notices, Hindsight(two_passes=two_passes)
-        )
+        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, Hindsight(two_passes=two_passes))
 
 
 def first_pass(sensor: Sensor, params: Params, watch: Watch) -> Floats:

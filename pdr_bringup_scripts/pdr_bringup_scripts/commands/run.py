@@ -33,7 +33,8 @@ def run(
 
     chosen = load_params(params) if params else Params()
     chosen = changed(chosen, "stance", detector=detector) if detector is not None else chosen
-    chosen = with_time_gate(chosen, known_name("--time-gate", time_gate, TIME_GATES)) if time_gate is not None else chosen
+    if time_gate is not None:
+        chosen = with_time_gate(chosen, known_name("--time-gate", time_gate, TIME_GATES))
     chosen = changed(chosen, "filter", level_ground=True) if level_ground else chosen
     session = open_recording(recording, column_map=columns)
     result = run_recording(session, chosen, sensor, out, Terminal(), Hindsight(smooth, time_gate == OFFLINE))

@@ -23,7 +23,8 @@ def study(
 ) -> DetectorStudy:
     """Run every detector with every gate; `deep`: also windows of every length, and the method without each part.
 
-    What a part is worth only the truth can tell: without it none is left out. `seen` is told what is under way. NoSamples if the recording holds no usable one.
+    What a part is worth only the truth can tell: without it none is left out. `seen` is told what is under way.
+    NoSamples if the recording holds no usable one.
     """
     shallow = compared(walk, params, detectors, gates, seen)
     if not deep:

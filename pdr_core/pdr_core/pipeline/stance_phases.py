@@ -11,7 +11,6 @@ from pdr_core.params import Params, StanceParams, changed
 from pdr_core.records import Flags, Floats, ImuBlock, Stamps, StanceBlock
 from pdr_core.stance import StanceDetection
 
-
 OFFLINE = "kmeans_offline"  # kmeans, but a first pass over the whole recording has told it the phases
 TIME_GATES = (*choices_of(StanceParams, "time_gate"), OFFLINE)
 

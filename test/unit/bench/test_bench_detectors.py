@@ -122,5 +122,5 @@ def test_without_truth_no_part_can_be_worth_anything(walk):
 
 @pytest.mark.parametrize("pieces", [[], [NO_SAMPLES]])
 def test_a_recording_without_samples_is_said_to_be_so(pieces):
-    with pytest.raises(NoSamples, match="empty holds no usable sample$"):
+    with pytest.raises(NoSamples, match=r"empty holds no usable sample$"):
         study(Walk("empty", pieces, None), PARAMS, ["glrt"], ["none"], False)

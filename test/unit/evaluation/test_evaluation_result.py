@@ -8,8 +8,9 @@ from pdr_core.evaluation.result import SensorsResult, in_words
 from pdr_core.evaluation.score import TruthScore
 from pdr_core.records import Level, Notice, TruthKind
 
-KEYS = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes", "strides", "distance_m"]
-KEYS += ["end_position_m", "closure_2d_m", "closure_3d_m", "seconds", "notices", "config", "truth", "version", "commit"]
+KEYS = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes", "strides"]
+KEYS += ["distance_m", "end_position_m", "closure_2d_m", "closure_3d_m", "seconds", "notices", "config", "truth"]
+KEYS += ["version", "commit"]
 
 
 def strict(text):
