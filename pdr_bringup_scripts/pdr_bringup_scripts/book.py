@@ -10,9 +10,10 @@ from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.report import write_report
-from pdr_core.evaluation.result import Result
+from pdr_core.evaluation.result import CAUSAL, Hindsight, Result
 from pdr_core.evaluation.score import Scorer, start_of_steps_m
 from pdr_core.evaluation.trace import Trace
+from pdr_core.evaluation.words import nothing_usable
 from pdr_core.params import Params, params_as_mapping
 from pdr_core.pipeline import FootOutput
 from pdr_core.recording import Sensor, Session
@@ -66,16 +67,25 @@ class Book:
     def _start_position_m(self) -> Floats:
         return start_of_steps_m(self.steps, self._scorer.start_position_m)
 
-    def close(self, pipeline: str, params: Params, samples: int, seconds: float, notices: list[Notice]) -> Result:
+    def close(
+        self,
+        pipeline: str,
+        params: Params,
+        samples: int,
+        seconds: float,
+        notices: list[Notice],
+        hindsight: Hindsight = CAUSAL,
+    ) -> Result:
         """Return the result and write the files; Problem if there was no usable sample."""
         if self._last_ns is None:
-            raise Problem(f"{self._session.path} holds no usable sample: {'; '.join(n.text for n in notices)}")
+            raise Problem(nothing_usable(str(self._session.path), notices))
         result = Result(
             recording=str(self._session.path),
             format=self._session.format,
             samples=samples,
             duration_s=self.duration_s,
             pipeline=pipeline,
+            **hindsight._asdict(),
             strides=len(self.steps),
             distance_m=float(sum(step.length_m for step in self.steps)),
             end_position_m=self._scorer.end_position_m,

@@ -15,12 +15,10 @@ def show_comparison(studies: Sequence[DetectorStudy]) -> None:
     """Print the tables: with colours on a terminal, as plain text elsewhere."""
     out = console(WIDTH)
     out.print(rich_table("Stance detectors (closure: from the first position to the last)", figures(studies)))
-    if len(studies) > 1:
-        out.print(
-            rich_table("Over all recordings: ATE2 where the path is known, mean closure of loops", summaries(studies))
-        )
-    if studies[0].ablation:
-        out.print(rich_table("What each part of the method is worth", worth(studies)))
+    if len(studies) > 1 and (over_all := summaries(studies)).rows:
+        out.print(rich_table("Over all recordings: ATE2 where the path is known, mean closure of loops", over_all))
+    if (parts := worth(studies)).rows:
+        out.print(rich_table("What each part of the method is worth", parts))
 
 
 def rich_table(title: str, text: TextTable) -> Table:

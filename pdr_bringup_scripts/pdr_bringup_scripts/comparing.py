@@ -1,19 +1,22 @@
 """Studies recordings one after the other; one that cannot be read does not stop the others."""
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from pdr_bringup_scripts.options import known_name
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_bringup_scripts.terminal import Bar, Terminal
-from pdr_core.bench.detectors import DETECTORS, GATES, study
+from pdr_core.bench.detectors import DETECTORS, study
 from pdr_core.bench.trial import NoSamples, Walk
 from pdr_core.evaluation.detector_page import detector_page
 from pdr_core.evaluation.detector_study import DetectorStudy
 from pdr_core.evaluation.detector_tables import as_csv, as_json
 from pdr_core.params import Params
-from pdr_core.recording import RecordingError, Session, open_recording
+from pdr_core.pipeline.stance_phases import TIME_GATES
+from pdr_core.recording import RecordingError, Sensor, Session, open_recording
 from pdr_core.warmup import warm_up
 
 FILES = "compare.html, compare.csv, compare.json"
@@ -46,18 +49,13 @@ def chosen_detectors(text: str) -> list[str]:
 
 def chosen_gates(text: str) -> list[str]:
     """Return the time gates of a list with commas; Problem if one does not exist."""
-    return chosen(text, GATES, "--gates")
+    return chosen(text, TIME_GATES, "--time-gates")
 
 
 def chosen(text: str, known: Sequence[str], option: str) -> list[str]:
     """Return the names of a list, each once, or all that are known."""
-    names = list(dict.fromkeys(name.strip() for name in text.split(",")))
-    if names == ["all"]:
-        return list(known)
-    for name in names:
-        if name not in known:
-            raise Problem(f"{option} {name}: there is none of that name; choose from all, {', '.join(known)}")
-    return names
+    names = [known_name(option, name.strip(), ("all", *known)) for name in text.split(",")]
+    return list(known) if "all" in names else list(dict.fromkeys(names))
 
 
 def compared(paths: Sequence[Path], job: Job, terminal: Terminal) -> Compared:
@@ -66,17 +64,25 @@ def compared(paths: Sequence[Path], job: Job, terminal: Terminal) -> Compared:
     done = Compared()
     with terminal.bar("Comparing", len(paths)) as bar:
         for path, name in zip(paths, names(paths), strict=True):
-            try:
+            with noted(path, done.problems):
                 session = open_recording(path, column_map=job.columns)
-                for walk in walks(session, name):
-                    done.studies.append(studied(walk, job, bar))
+                for sensor in session.sensors.values():
+                    with noted(path, done.problems):
+                        done.studies.append(studied(walk_of(session, sensor, name), job, bar))
                 done.warnings.extend(f"Warning: {name}: {notice.text.rstrip('.')}." for notice in session.notices)
-            except (NoSamples, RecordingError) as problem:
-                done.problems.append(str(problem))
-            except OSError as error:
-                done.problems.append(f"{error.filename or path}: {error.strerror or error}")
             bar.advance()
     return done
+
+
+@contextmanager
+def noted(path: Path, problems: list[str]) -> Iterator[None]:
+    """Note that something cannot be read, and go on after it."""
+    try:
+        yield
+    except (NoSamples, RecordingError) as problem:
+        problems.append(str(problem))
+    except OSError as error:
+        problems.append(f"{error.filename or path}: {error.strerror or error}")
 
 
 def names(paths: Sequence[Path]) -> list[str]:
@@ -85,11 +91,10 @@ def names(paths: Sequence[Path]) -> list[str]:
     return [stem if short.count(stem) == 1 else str(path) for stem, path in zip(short, paths, strict=True)]
 
 
-def walks(session: Session, name: str) -> Iterator[Walk]:
-    """Read the sensors of a recording, each once, whole."""
-    for sensor in session.sensors.values():
-        own_name = name if len(session.sensors) == 1 else f"{name} {sensor.name}"
-        yield Walk(own_name, list(sensor.pieces()), sensor.truth)
+def walk_of(session: Session, sensor: Sensor, name: str) -> Walk:
+    """Read a sensor of a recording, once, whole."""
+    own_name = name if len(session.sensors) == 1 else f"{name} {sensor.name}"
+    return Walk(own_name, list(sensor.pieces()), sensor.truth)
 
 
 def studied(walk: Walk, job: Job, bar: Bar) -> DetectorStudy:
@@ -110,4 +115,4 @@ def tell(done: Compared, terminal: Terminal) -> None:
     for warning in done.warnings:
         terminal.say(warning)
     if done.problems:
-        raise Problem("\npdr: ".join(done.problems))
+        raise Problem("\n".join(done.problems))

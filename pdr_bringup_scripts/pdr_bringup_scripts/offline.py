@@ -9,11 +9,11 @@ from typing import TypeVar
 from pdr_bringup_scripts.book import Book
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
-from pdr_core.evaluation.result import SMOOTHED, Result, SensorsResult
+from pdr_core.evaluation.result import CAUSAL, Hindsight, Result, SensorsResult
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial, SmoothedFoot
+from pdr_core.pipeline import FootInertial, SmoothedFoot, stance_phases
 from pdr_core.recording import Sensor, Session
-from pdr_core.records import length
+from pdr_core.records import Floats, length
 from pdr_core.warmup import warm_up
 
 T = TypeVar("T")
@@ -21,19 +21,23 @@ PIPELINE = "foot_inertial"
 
 
 def run_recording(
-    session: Session, params: Params, sensor: str | None, out: Path | None, terminal: Terminal, smooth: bool = False
+    session: Session,
+    params: Params,
+    sensor: str | None,
+    out: Path | None,
+    terminal: Terminal,
+    hindsight: Hindsight = CAUSAL,
 ) -> Result | SensorsResult:
-    """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several.
-
-    With `smooth` every estimate knows the whole recording.
-    """
+    """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several."""
     chosen = chosen_sensors(session, sensor)
     check_output(out, session)
-    warm_up(params, smooth)
-    run = run_sensor_smoothed if smooth else run_sensor
+    warm_up(params, hindsight.smoothed)
+    run = run_sensor_smoothed if hindsight.smoothed else run_sensor
     if len(chosen) == 1:
-        return run(session, chosen[0], params, out, terminal)
-    results = {s.name: run(session, s, params, out / s.name if out else None, terminal) for s in chosen}
+        return run(session, chosen[0], params, out, terminal, hindsight.two_passes)
+    results = {
+        s.name: run(session, s, params, out / s.name if out else None, terminal, hindsight.two_passes) for s in chosen
+    }
     together = SensorsResult(str(session.path), session.format, results)
     if out:
         (out / "result.json").write_text(together.to_json() + "\n")
@@ -77,9 +81,12 @@ class Watch:
         return result
 
 
-def run_sensor(session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal) -> Result:
-    """Estimate one sensor and write its files."""
-    pipeline, watch, samples = FootInertial(params), Watch(), 0
+def run_sensor(
+    session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal, two_passes: bool = False
+) -> Result:
+    """Estimate one sensor and write its files; `two_passes`: the time gate knows the whole recording."""
+    watch, samples = Watch(), 0
+    pipeline = FootInertial(params, phases_s=first_pass(sensor, params, watch) if two_passes else None)
     with ExitStack() as stack:
         book = Book(session, sensor, out, stack)
         show = stack.enter_context(terminal.progress(f"Estimating {sensor.name}"))
@@ -88,14 +95,20 @@ def run_sensor(session: Session, sensor: Sensor, params: Params, out: Path | Non
             samples += length(piece)
             show(f"{book.duration_s:.0f} s of the recording, {len(book.steps)} strides")
         book.keep(pipeline.finish())
-        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices)
+        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, Hindsight(two_passes=two_passes))
+
+
+def first_pass(sensor: Sensor, params: Params, watch: Watch) -> Floats:
+    """Return how long the stances of the whole recording last, (n,) [s]; what this takes includes the reading."""
+    return watch(stance_phases, sensor.pieces(), params)
 
 
 def run_sensor_smoothed(
-    session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal
+    session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal, two_passes: bool = False
 ) -> Result:
-    """Estimate one sensor by its whole recording and write its files."""
-    pipeline, watch, samples = SmoothedFoot(params), Watch(), 0
+    """Estimate one sensor by its whole recording and write its files; `two_passes`: the time gate knows it too."""
+    watch, samples = Watch(), 0
+    pipeline = SmoothedFoot(params, first_pass(sensor, params, watch) if two_passes else None)
     with ExitStack() as stack:
         book = Book(session, sensor, out, stack)
         with terminal.progress(f"Estimating {sensor.name}") as show:
@@ -107,4 +120,4 @@ def run_sensor_smoothed(
         outputs = pipeline.finish(lambda share: show(f"{share:.0%}"))
         while output := watch(next, outputs, None):
             book.keep(output)
-        return book.close(PIPELINE + SMOOTHED, params, samples, watch.seconds, pipeline.notices)
+        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, Hindsight(True, two_passes))

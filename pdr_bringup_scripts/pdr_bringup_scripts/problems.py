@@ -8,7 +8,7 @@ ENDS = (signal.SIGTERM, signal.SIGHUP)  # what was started ends with us
 
 
 class Problem(Exception):  # noqa: N818  (what a person meets)
-    """Something that the user can mend; the text says what to do next."""
+    """Something that the user can mend; the text says what to do next, of several things a line each."""
 
 
 def told(main: Callable[[], object]) -> None:
@@ -25,7 +25,7 @@ def told(main: Callable[[], object]) -> None:
     except Exception as problem:
         if not isinstance(problem, _problems()):
             raise
-        print(f"pdr: {problem}", file=sys.stderr)
+        print(*(f"pdr: {line}" for line in str(problem).splitlines()), sep="\n", file=sys.stderr)
         sys.exit(2)
 
 

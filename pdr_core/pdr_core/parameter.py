@@ -56,6 +56,11 @@ def meta(field: dataclasses.Field) -> Meta:
     return field.metadata["meta"]
 
 
+def choices_of(group: type, name: str) -> tuple[str, ...]:
+    """Return what a parameter of a group picks from."""
+    return next(meta(field).choices for field in dataclasses.fields(group) if field.name == name)
+
+
 def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
     """Return the value as the field's type; an integer where a float is meant is accepted, and 1e-5 without a dot."""
     wanted = type(field.default)

@@ -83,6 +83,9 @@ class Handover:
     biases: Biases | None  # None: unknown
 
 
+NOT_NUMBERED = (-1, -1)
+
+
 @dataclass(frozen=True)
 class StepEvent:
     """One step of one foot: from the end of one stance to the end of the next."""
@@ -96,7 +99,7 @@ class StepEvent:
     yaw_rad: float  # of the foot while it stands
     yaw_sd_rad: float
     answer_due_ns: int = NO_STAMP  # the filter waits here for the heading observation; NO_STAMP: it asks for none
-    samples: tuple[int, int] = (0, 0)  # the numbers of its first and its last sample, as the filter counts them
+    sample_numbers: tuple[int, int] = NOT_NUMBERED  # of its first and its last sample, as the filter counts them
 
     @property
     def length_m(self) -> float:

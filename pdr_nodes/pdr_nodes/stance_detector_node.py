@@ -13,7 +13,7 @@ from pdr_nodes.run import run
 
 
 class StanceDetectorNode(ManagedNode):
-    """Hosts the stance stage. A verdict follows its sample by at most the latency that the node logs."""
+    """Hosts the stance stage. A verdict follows its sample by at most what the node logs."""
 
     NAME = "stance_detector"
     GROUPS = ("stance", "detectors", "place", "node")
@@ -26,7 +26,8 @@ class StanceDetectorNode(ManagedNode):
         self._verdicts = self.output(StanceImu, "stance")
         self.input(Imu, "imu/data", imu_block, self._take)
         self.when_idle(params.node.idle_s, lambda: self._publish(self._stance.finish()))
-        self.get_logger().info(f"verdicts follow within {self._stance.latency_s:.3f} s")
+        intervals = "one sample interval" if params.stance.time_gate == "none" else "two sample intervals"
+        self.get_logger().info(f"verdicts follow within {self._stance.latency_s:.4f} s and {intervals}")
 
     def _take(self, block: ImuBlock) -> None:
         self._publish(self._stance.run(block))

@@ -5,27 +5,15 @@
 
 import os
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
 import pytest
 
 from pdr_core.bench.ablation import FULL, OFF, without
 from pdr_core.params import Params
-from support.held_recordings import TILES, VICON, XIO, Held, ate2_m, held, results
+from support.development_table import Row, line, measured
+from support.held_recordings import TILES, VICON, XIO, held
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "navigation.md"
-
-
-class Row(NamedTuple):
-    """One line of the table."""
-
-    vicon_mean_m: float
-    vicon_median_m: float
-    vicon_worst_m: float
-    tiles_mean_m: float
-    strides_wrong: float  # of the tile walks
-    xio_closure_m: float
 
 
 WORTH = {  # by how much at least a figure grows without a part; the noise of the sensor helps with noisier ones
@@ -42,20 +30,6 @@ WORTH = {  # by how much at least a figure grows without a part; the noise of th
 }
 COST = Row(0.005, 0.005, 0.01, 0.01, 0.0, 0.015)  # what a part may cost where it does not help
 pytestmark = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figures: `pdr test --full`")
-
-
-def measured(walks: dict[str, Held], params: Params) -> Row:
-    vicon_m = list(ate2_m(walks[VICON], params).values())
-    tiles = results(walks[TILES], params).values()
-    (loop,) = results(walks[XIO], params).values()
-    wrong = sum(abs(tile.strides - tile.truth.stride_count_true) for tile in tiles)
-    tiles_m = float(np.mean([tile.truth.ate2_m for tile in tiles]))
-    return Row(float(np.mean(vicon_m)), float(np.median(vicon_m)), max(vicon_m), tiles_m, wrong, loop.closure_2d_m)
-
-
-def line(name: str, row: Row) -> str:
-    numbers = [f"{x:.0f}" if figure == "strides_wrong" else f"{x:.3f}" for figure, x in row._asdict().items()]
-    return f"| {' | '.join([name, *numbers])} |"
 
 
 @pytest.fixture(scope="module")

@@ -12,13 +12,14 @@ from typing import NamedTuple
 
 import pytest
 
-from pdr_bringup_scripts.comparing import walks
+from pdr_bringup_scripts.comparing import walk_of
 from pdr_core.bench.ablation import without
-from pdr_core.bench.detectors import DETECTORS, GATES, with_choice
+from pdr_core.bench.detectors import DETECTORS, with_choice
 from pdr_core.bench.trial import Walk, trial
 from pdr_core.evaluation.detector_study import Choice
 from pdr_core.evaluation.walk_score import summary
 from pdr_core.params import Params, changed
+from pdr_core.pipeline.stance_phases import TIME_GATES
 from pdr_core.recording import open_recording
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "detectors.md"
@@ -82,14 +83,15 @@ def groups(recordings: Path) -> Groups:
     found = {}
     for folder, (pattern, count) in FILES.items():
         paths = sorted((recordings / folder).glob(pattern))
-        found[folder] = [walk for path in paths for walk in walks(open_recording(path), path.stem)]
+        sessions = {path.stem: open_recording(path) for path in paths}
+        found[folder] = [walk_of(s, sensor, name) for name, s in sessions.items() for sensor in s.sensors.values()]
         assert len(found[folder]) == count, folder
     return found
 
 
 @pytest.fixture(scope="module")
 def tables(groups: Groups) -> dict[str, dict[Choice, Row]]:
-    choices = [Choice(detector, gate) for detector in DETECTORS for gate in GATES]
+    choices = [Choice(detector, gate) for detector in DETECTORS for gate in TIME_GATES]
     found = {name: {c: measured(groups, filter_params(name), c) for c in choices} for name in FILTERS}
     for name, rows in found.items():
         print("", f"### {name}", "", *(line(choice, row) for choice, row in rows.items()), sep="\n")
@@ -115,7 +117,7 @@ def test_a_plain_filter_costs_every_detector(tables: dict[str, dict[Choice, Row]
 
 
 def test_gates_help_a_plain_filter(tables: dict[str, dict[Choice, Row]]) -> None:
-    alone, *gated = (tables[FILTERS[1]][Choice("adaptive", gate)] for gate in GATES)
+    alone, *gated = (tables[FILTERS[1]][Choice("adaptive", gate)] for gate in TIME_GATES)
     assert all(row.vicon_mean_m < 0.95 * alone.vicon_mean_m for row in gated)
     assert all(row.tiles_mean_m < 0.5 * alone.tiles_mean_m for row in gated)
 

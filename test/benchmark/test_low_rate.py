@@ -6,7 +6,6 @@
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -15,7 +14,8 @@ from pdr_core.params import Params, changed
 from pdr_core.recording import Session
 from pdr_core.recording.decimation import kept_of, rate_of_hz, thinned
 from pdr_core.records import ImuBlock, length, part
-from support.held_recordings import TILES, VICON, XIO, Held, held, only, results, with_samples
+from support.development_table import Row, line, measured
+from support.held_recordings import TILES, VICON, XIO, Held, held, only, with_samples
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "navigation.md"
 NATIVE = "as recorded"
@@ -23,17 +23,6 @@ AVERAGES = changed(Params(), "filter", samples="averages")
 MEANS = changed(Params(), "filter", samples="means")
 pytestmark = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figures: `pdr test --full`")
 Lower = Callable[[ImuBlock, int], ImuBlock]
-
-
-class Row(NamedTuple):
-    """One line of the table."""
-
-    vicon_mean_m: float
-    vicon_median_m: float
-    vicon_worst_m: float
-    tiles_mean_m: float
-    strides_wrong: float  # of the tile walks
-    xio_closure_m: float
 
 
 def filtered(samples: ImuBlock, k: int) -> ImuBlock:
@@ -77,19 +66,6 @@ def lowered(walks: dict[str, Held], lower: Lower, rate_hz: float) -> dict[str, H
     return {
         folder: {name: slower(walk, lower, rate_hz) for name, walk in group.items()} for folder, group in walks.items()
     }
-
-
-def measured(walks: dict[str, Held], params: Params) -> Row:
-    found = {folder: list(results(group, params).values()) for folder, group in walks.items()}
-    vicon_m, tiles_m = ([r.truth.ate2_m for r in found[folder]] for folder in (VICON, TILES))
-    wrong = sum(abs(r.strides - r.truth.stride_count_true) for r in found[TILES])
-    mean_m, median_m = float(np.mean(vicon_m)), float(np.median(vicon_m))
-    return Row(mean_m, median_m, max(vicon_m), float(np.mean(tiles_m)), wrong, found[XIO][0].closure_2d_m)
-
-
-def line(name: str, row: Row) -> str:
-    numbers = [f"{x:.0f}" if figure == "strides_wrong" else f"{x:.3f}" for figure, x in row._asdict().items()]
-    return f"| {' | '.join([name, *numbers])} |"
 
 
 @pytest.fixture(scope="module")

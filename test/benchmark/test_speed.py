@@ -24,6 +24,7 @@ from support.walks import straight_walk, write_csv
 CHECKOUT = Path(__file__).resolve().parents[2]
 OFFLINE_LIMIT = 200_000  # samples/s
 DETECTOR_LIMIT_NS = 1000.0
+MBGTD_FINE_LIMIT_NS = 15_000.0  # at 1 kHz: its cost grows with the square of the samples in its window
 SECOND_START_LIMIT_S = 2.0
 full = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figures: `pdr test --full`")
 
@@ -50,13 +51,16 @@ def test_offline_speed(recordings: Path) -> None:
 
 
 @full
-def test_every_detector_takes_less_than_a_microsecond_a_sample(recordings: Path) -> None:
+def test_every_detector_takes_less_than_a_microsecond_a_sample_at_200_hz_and_at_1_khz_all_but_one(
+    recordings: Path,
+) -> None:
     walks = vicon_walks(recordings)
     fine = [straight_walk(10, 1000.0).imu]
     for detector in detectors(StanceParams(), DetectorParams(), STANDARD_GRAVITY_MPS2):
         usual_ns, fine_ns = stance_ns(detector, walks), stance_ns(detector, fine)
         print(f"\n{detector:<30}{usual_ns:>6.0f} ns a sample at 200 Hz, {fine_ns:>6.0f} ns at 1 kHz", end="")
         assert usual_ns < DETECTOR_LIMIT_NS
+        assert fine_ns < (MBGTD_FINE_LIMIT_NS if detector == "mbgtd" else DETECTOR_LIMIT_NS)
 
 
 @full

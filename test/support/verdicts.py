@@ -1,8 +1,9 @@
-"""Verdicts without samples, for what looks at verdicts and stamps alone."""
+"""Verdicts without samples, for what looks at verdicts and stamps alone, and how long real ones take."""
 
 import numpy as np
 
-from pdr_core.records import ImuBlock, StanceBlock
+from pdr_core.records import ImuBlock, StanceBlock, length, part
+from pdr_core.stance import StanceDetection
 
 PERIOD_NS = 5_000_000
 
@@ -21,3 +22,9 @@ def span_of(at: int, *spans: tuple[float, bool]) -> slice:
     counts = [round(seconds * 200) for seconds, _ in spans]
     begin = sum(counts[:at])
     return slice(begin, begin + counts[at])
+
+
+def longest_wait_s(stage: StanceDetection, imu: ImuBlock) -> float:
+    """Return by how much, by the stamps, a verdict follows its sample at most where samples come one by one."""
+    waited_ns = [imu.stamp_ns[i] - stage.run(part(imu, i, i + 1)).imu.stamp_ns for i in range(length(imu))]
+    return float(np.concatenate(waited_ns).max()) / 1e9

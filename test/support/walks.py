@@ -6,7 +6,7 @@ import numpy as np
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params, SimulationParams
-from pdr_core.records import ImuBlock, StanceBlock, joined, length
+from pdr_core.records import ImuBlock, Stamps, StanceBlock, joined, length
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.stance import StanceDetection
 from pdr_nodes.convert import imu_message, stance_message
@@ -26,6 +26,15 @@ def straight_walk(strides: int, rate_hz: float = 100.0) -> SimulatedWalk:
     """Return a walk along x that stands for three seconds at both ends."""
     params = SimulationParams(walk="straight", walk_length_m=1.2 * strides, sample_rate_hz=rate_hz)
     return simulated_walk(params, start_ns=BEGIN_NS)
+
+
+def walk_with_dips(strides: int) -> tuple[ImuBlock, Stamps]:
+    """Return a walk at 200 Hz in whose swings the foot is still for 50 ms, and the rows of these samples."""
+    walk = straight_walk(strides, 200.0)
+    toe_offs = np.flatnonzero(np.diff(walk.motion.stance.astype(int)) == -1)
+    dips = np.concatenate([np.arange(at + 40, at + 50) for at in toe_offs])
+    walk.imu.gyro_radps[dips], walk.imu.accel_mps2[dips] = 0.0, [0.0, 0.0, 9.81]
+    return walk.imu, dips
 
 
 def still(seconds: float, begin_ns: int, rate_hz: float = 100.0) -> ImuBlock:

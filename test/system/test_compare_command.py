@@ -6,6 +6,18 @@ import json
 import pytest
 
 from support.processes import check_refused, pdr
+from support.walks import straight_walk, write_csv
+
+TWO_FEET = """name: two
+time: {column: t, unit: ns}
+sensors:
+  left:
+    gyro: {columns: [none, none, none], unit: rad/s}
+    accel: {columns: [ax, ay, az], unit: m/s^2}
+  right:
+    gyro: {columns: [wx, wy, wz], unit: rad/s}
+    accel: {columns: [ax, ay, az], unit: m/s^2}
+"""
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +73,7 @@ def test_the_default_comes_out_as_in_a_run(figures, folder):
 
 def test_a_broken_file_does_not_lose_the_others(folder):
     names = ("broken.csv", "walk1.csv", "gone.mcap")
-    run = pdr("compare", "--detectors", "glrt", "--gates", "none,kmeans", "--json", *names, cwd=folder)
+    run = pdr("compare", "--detectors", "glrt", "--time-gates", "none,kmeans", "--json", *names, cwd=folder)
     assert run.returncode == 2
     told = run.stderr.splitlines()
     assert [line.startswith("pdr: ") for line in told] == [True, True]
@@ -70,7 +82,7 @@ def test_a_broken_file_does_not_lose_the_others(folder):
     assert [(row["recording"], row["gate"]) for row in found] == [("walk1", "none"), ("walk1", "kmeans")]
 
 
-@pytest.mark.parametrize("option", ["--detectors", "--gates"])
+@pytest.mark.parametrize("option", ["--detectors", "--time-gates"])
 def test_an_unknown_name_is_one_sentence(folder, option):
     check_refused(pdr("compare", option, "magic", "walk1.csv", cwd=folder), f"{option} magic", "choose from all, ")
 
@@ -87,6 +99,31 @@ def test_what_could_not_be_read_is_a_warning(folder, tmp_path):
     assert run.returncode == 0
     assert run.stderr.startswith("Warning: cut: cut.mcap is damaged: ")
     assert "glrt" in run.stdout
+
+
+def test_a_foot_without_samples_loses_neither_the_other_nor_the_warnings(tmp_path):
+    rows = write_csv(tmp_path / "feet.csv", straight_walk(3).imu).read_text().splitlines()
+    rows = [f"{rows[0]},none", *(f"{row},nan" for row in rows[1:]), "cut"]
+    (tmp_path / "feet.csv").write_text("\n".join(rows) + "\n")
+    (tmp_path / "feet.yaml").write_text(TWO_FEET)
+    run = pdr("compare", "--detectors", "glrt", "--json", tmp_path / "feet.csv")
+    assert [row["recording"] for row in json.loads(run.stdout)["figures"]] == ["feet right"]
+    warning, problem = run.stderr.splitlines()
+    assert warning.startswith("Warning: feet: ")
+    assert problem.startswith("pdr: feet left holds no usable sample")
+
+
+def test_without_truth_there_is_no_table_of_names(folder, tmp_path):
+    walk = write_csv(tmp_path / "unknown.csv", straight_walk(3).imu)
+    run = pdr("compare", "--detectors", "glrt", walk, folder / "walk1.csv", "--json")
+    found = json.loads(run.stdout)
+    assert [row["truth"] for row in found["figures"]] == ["none", "position"]
+    assert found["ablation"][0]["recordings"] == 1
+    run = pdr("compare", "--detectors", "glrt", walk, walk, "--out", tmp_path / "out")
+    assert run.returncode == 0, run.stderr
+    assert "closure 2-D m" in run.stdout
+    assert "Over all" not in run.stdout
+    assert "switched off" not in run.stdout
 
 
 def test_recordings_of_the_same_name_keep_their_folders(folder, tmp_path):

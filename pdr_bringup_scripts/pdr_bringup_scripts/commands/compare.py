@@ -8,7 +8,7 @@ import typer
 def compare(
     recordings: list[Path] = typer.Argument(help="rosbag2 directories, .mcap, .db3, ROS 1 .bag, .csv or .mat"),
     detectors: str = typer.Option("all", help="all, or some of them with commas: adaptive,glrt,mbgtd"),
-    gates: str = typer.Option("none", help="time gates: all, or some of none,gait_phases,kmeans,kmeans_offline"),
+    time_gates: str = typer.Option("none", help="all, or some of none,gait_phases,kmeans,kmeans_offline"),
     out: Path = typer.Option(None, "--out", "-o", help="folder for a page with pictures, CSV and JSON"),
     json: bool = typer.Option(False, "--json", help="print everything as one JSON object"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
@@ -16,7 +16,8 @@ def compare(
 ) -> None:
     """Run every stance detector over recordings and say how far off each track comes out.
 
-    With `--out` or `--json` also: steps found by windows of every length, and what each part of the method is worth.
+    With `--out` or `--json` also: steps found by windows of every length, and what each part of the method is worth
+    where the truth is known.
 
     Example: `pdr compare --detectors all *.mcap --out compared` and then open `compared/compare.html`
     """
@@ -29,7 +30,7 @@ def compare(
     from pdr_core.params_file import load_params
 
     chosen, terminal = load_params(params) if params else Params(), Terminal()
-    job = Job(chosen, chosen_detectors(detectors), chosen_gates(gates), bool(out or json), columns)
+    job = Job(chosen, chosen_detectors(detectors), chosen_gates(time_gates), bool(out or json), columns)
     if out:
         make_folder(out)
     done = compared(recordings, job, terminal)

@@ -13,7 +13,7 @@ def run(
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
     detector: str = typer.Option(None, help="what tells a standing foot: adaptive, glrt ...; default: as in the file"),
-    gate: str = typer.Option(None, help="what sorts out false stances by their time: none, gait_phases or kmeans"),
+    time_gate: str = typer.Option(None, help="what sorts out false stances: none, gait_phases, kmeans, kmeans_offline"),
     level_ground: bool = typer.Option(False, "--level-ground", help="hold the height of each floor; keeps stairs"),
     smooth: bool = typer.Option(False, "--smooth", help="let every estimate know the whole recording: go back over it"),
 ) -> None:
@@ -23,18 +23,21 @@ def run(
     """
     from pdr_bringup_scripts.book import FILES
     from pdr_bringup_scripts.offline import run_recording
+    from pdr_bringup_scripts.options import known_name
     from pdr_bringup_scripts.terminal import Terminal
-    from pdr_core.evaluation.result import in_words
+    from pdr_core.evaluation.result import Hindsight, in_words
     from pdr_core.params import Params, changed
     from pdr_core.params_file import load_params
+    from pdr_core.pipeline.stance_phases import OFFLINE, TIME_GATES, with_time_gate
     from pdr_core.recording import open_recording
 
     chosen = load_params(params) if params else Params()
-    named = {"detector": detector, "time_gate": gate}
-    chosen = changed(chosen, "stance", **{name: value for name, value in named.items() if value is not None})
+    chosen = changed(chosen, "stance", detector=detector) if detector is not None else chosen
+    if time_gate is not None:
+        chosen = with_time_gate(chosen, known_name("--time-gate", time_gate, TIME_GATES))
     chosen = changed(chosen, "filter", level_ground=True) if level_ground else chosen
     session = open_recording(recording, column_map=columns)
-    result = run_recording(session, chosen, sensor, out, Terminal(), smooth)
+    result = run_recording(session, chosen, sensor, out, Terminal(), Hindsight(smooth, time_gate == OFFLINE))
     print(result.to_json() if json else in_words(result))
     if out and not json:
         print(f"Written to {out}: {FILES}")

@@ -1,7 +1,7 @@
 """Every stance detector, with every time gate, on one recording."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 
 from pdr_core.bench.ablation import ablation
 from pdr_core.bench.trial import Walk, trial
@@ -9,14 +9,12 @@ from pdr_core.bench.windows import window_steps
 from pdr_core.evaluation.detector_curves import detector_curves, true_speed
 from pdr_core.evaluation.detector_study import Choice, DetectorStudy
 from pdr_core.evaluation.walk_score import WalkScore
-from pdr_core.parameter import meta
+from pdr_core.parameter import choices_of
 from pdr_core.params import Params, StanceParams, changed
+from pdr_core.pipeline.stance_phases import OFFLINE, with_time_gate
 from pdr_core.records import StanceBlock
 
-OFFLINE = "kmeans_offline"  # kmeans, but a first pass over the whole recording has told it the phases
-CHOICES = {field.name: meta(field).choices for field in fields(StanceParams)}
-DETECTORS = CHOICES["detector"]
-GATES = (*CHOICES["time_gate"], OFFLINE)
+DETECTORS = choices_of(StanceParams, "detector")
 Seen = Callable[[str], object]
 
 
@@ -25,12 +23,14 @@ def study(
 ) -> DetectorStudy:
     """Run every detector with every gate; `deep`: also windows of every length, and the method without each part.
 
-    `seen` is told what is under way. NoSamples if the recording holds no usable one.
+    What a part is worth only the truth can tell: without it none is left out. `seen` is told what is under way.
+    NoSamples if the recording holds no usable one.
     """
     shallow = compared(walk, params, detectors, gates, seen)
     if not deep:
         return shallow
-    return replace(shallow, windows=window_steps(walk, params, detectors, seen), ablation=ablation(walk, params, seen))
+    worth = ablation(walk, params, seen) if walk.truth else {}
+    return replace(shallow, windows=window_steps(walk, params, detectors, seen), ablation=worth)
 
 
 def compared(walk: Walk, params: Params, detectors: Sequence[str], gates: Sequence[str], seen: Seen) -> DetectorStudy:
@@ -51,5 +51,4 @@ def compared(walk: Walk, params: Params, detectors: Sequence[str], gates: Sequen
 
 def with_choice(params: Params, choice: Choice) -> Params:
     """Return the parameters with that detector and that gate."""
-    gate = "kmeans" if choice.gate == OFFLINE else choice.gate
-    return changed(params, "stance", detector=choice.detector, time_gate=gate)
+    return with_time_gate(changed(params, "stance", detector=choice.detector), choice.gate)

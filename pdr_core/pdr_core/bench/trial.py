@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from pdr_core.evaluation.score import Scorer
 from pdr_core.evaluation.walk_score import WalkScore, walk_score
+from pdr_core.evaluation.words import nothing_usable
 from pdr_core.params import Params
 from pdr_core.pipeline import FootInertial, FootOutput, stance_phases
 from pdr_core.records import ImuBlock, StanceBlock, StepEvent, Truth, joined, length
@@ -43,7 +44,7 @@ def trial(walk: Walk, params: Params, two_passes: bool = False) -> Trial:
         steps += output.steps
     verdicts = joined(judged)
     if not length(verdicts):
-        raise NoSamples(f"{walk.name} holds no usable sample: {'; '.join(n.text for n in chain.notices)}")
+        raise NoSamples(nothing_usable(walk.name, chain.notices))
     return Trial(verdicts, walk_score(scorer, steps, verdicts.stance))
 
 

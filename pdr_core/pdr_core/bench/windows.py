@@ -17,6 +17,7 @@ from pdr_core.stance import StanceDetection
 
 SIZES = 25  # Qiu figure 6
 LONGEST_S = 0.25
+SHORTEST = 3  # intervals
 
 
 def window_steps(
@@ -39,9 +40,9 @@ def ingested(walk: Walk, params: Params) -> ImuBlock:
 
 
 def lengths_s(imu: ImuBlock) -> Floats:
-    """Return the lengths of the windows [s]: the first holds one sample."""
+    """Return the lengths of the windows [s], from three intervals on: a shorter one holds three samples as well."""
     interval_s = float(np.median(np.diff(imu.stamp_ns))) / NANOSECONDS if length(imu) > 1 else 0.0
-    return np.linspace(min(interval_s, LONGEST_S), LONGEST_S, SIZES, dtype=np.float64)
+    return np.linspace(min(SHORTEST * interval_s, LONGEST_S), LONGEST_S, SIZES, dtype=np.float64)
 
 
 def with_window(params: Params, detector: str, window_s: float) -> Params:

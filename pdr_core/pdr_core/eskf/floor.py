@@ -1,8 +1,8 @@
 """Level ground: a foot that stands at nearly the height of the floor stands on the floor.
 
-Heights drift by some centimetres a stride, and nothing bounds it. But where a foot stands, its sensor is about as high
-above the floor as it was when it stood there before. So the height z of a stance and that of the floor l give the
-pseudo-measurement
+Heights drift by one to two centimetres a stride, and nothing bounds it. But where a foot stands, its sensor is about
+as high above the floor as it was when it stood there before. So the height z of a stance and that of the floor l give
+the pseudo-measurement
 
     z - l = 0 with the noise R,    residual = (l - z) of the estimate.
 

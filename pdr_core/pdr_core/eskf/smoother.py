@@ -49,7 +49,7 @@ class Smoother:
 
         First from the end to the beginning for the state at the borders, then forward. `seen` is told the share done.
         """
-        ends = np.array(sorted({number for step in steps for number in step.samples}), np.int64)
+        ends = np.array(sorted({number for step in steps for number in step.sample_numbers}), np.int64)
         done, after = 0, last.copy()
         for segment in reversed(self._segments):
             segment.smoothed_after = after
@@ -60,7 +60,7 @@ class Smoother:
         for segment in self._segments:
             block, tape, flags = self._smoothed(segment, ends)
             stands |= {segment.numbers[i]: tape.states[i + 1].copy() for i in np.flatnonzero(flags)}
-            mine = [self._restated(step, stands) for step in steps if step.samples[1] in segment.numbers]
+            mine = [self._restated(step, stands) for step in steps if step.sample_numbers[1] in segment.numbers]
             seen((done := done + 1) / (2 * len(self._segments)))
             yield block, estimates(tape), mine
 
@@ -74,7 +74,7 @@ class Smoother:
 
     def _restated(self, step: StepEvent, stands: dict[int, FilterState]) -> StepEvent:
         """Return a step as the smoothed states at its beginning and its end have it."""
-        start, end = (stands[number] for number in step.samples)
+        start, end = (stands[number] for number in step.sample_numbers)
         covariance = start["displacement_covariance"].copy()
         if self._settings.level_ground:  # the height is the filter's
             covariance[2, :] = covariance[:, 2] = 0.0

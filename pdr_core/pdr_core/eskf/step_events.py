@@ -77,7 +77,7 @@ def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent
             yaw_rad=float(state.end_yaw_rad[1]),
             yaw_sd_rad=float(state.end_yaw_sd_rad[1]),
             answer_due_ns=answer_due_ns,
-            samples=(int(state.end_sample[0]), int(state.end_sample[1])),
+            sample_numbers=(int(state.end_sample[0]), int(state.end_sample[1])),
         )
     state.step_number += first or step is not None
     begin_next(state)

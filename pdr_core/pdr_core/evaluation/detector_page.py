@@ -53,7 +53,7 @@ def best(studies: Sequence[DetectorStudy]) -> str:
 
 def parts(studies: Sequence[DetectorStudy]) -> Iterator[Part]:
     """Yield the tables over all recordings."""
-    caption = "ATE2 over all recordings whose true path is known, and how many strides are missed or counted twice."
+    caption = "ATE2 where the true path is known. Strides wrong: by how many the count of each walk is off, added up."
     yield Part("Each detector over all recordings", caption, summaries(studies))
     caption = "The setting at hand with one part of the method switched off at a time."
     yield Part("What each part of the method is worth", caption, worth(studies))

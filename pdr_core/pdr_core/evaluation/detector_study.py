@@ -24,7 +24,7 @@ class WindowSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class DetectorStudy:
-    """One recording; `windows` and `ablation` only where they were asked for."""
+    """One recording; `windows` and `ablation` only where they were asked for, and this where the truth is known."""
 
     recording: str
     scores: dict[Choice, WalkScore]

@@ -55,8 +55,9 @@ def by_choice(studies: Sequence[DetectorStudy]) -> dict[Choice, Summary]:
 
 
 def by_part(studies: Sequence[DetectorStudy]) -> dict[str, Summary]:
-    """Return the method without each part over all recordings."""
-    return {part: summary([s.ablation[part] for s in studies]) for part in (studies[0].ablation if studies else ())}
+    """Return the method without each part over all recordings on which that was tried."""
+    tried = [s.ablation for s in studies if s.ablation]
+    return {part: summary([scores[part] for scores in tried]) for part in (tried[0] if tried else ())}
 
 
 def as_json(studies: Sequence[DetectorStudy]) -> str:
@@ -113,8 +114,9 @@ def metres_text(length_m: float) -> str:
 
 
 def without_empty(table: TextTable) -> TextTable:
-    """Return the table without the columns in which nothing stands."""
+    """Return the table without the columns in which nothing stands, and without rows if only names are left."""
     keep = [i for i in range(len(table.heads)) if any(row[i] for row in table.rows)]
     heads = tuple(table.heads[i] for i in keep)
-    rows = [tuple(row[i] for i in keep) for row in table.rows]
-    return TextTable(heads, rows, sum(i < table.names for i in keep))
+    names = sum(i < table.names for i in keep)
+    rows = [tuple(row[i] for i in keep) for row in table.rows] if names < len(keep) else []
+    return TextTable(heads, rows, names)

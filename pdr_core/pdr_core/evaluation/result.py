@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,15 @@ from pdr_core.records import Floats, Level, Notice, TruthKind
 
 LEVELS = {Level.OK: "note", Level.WARN: "warning", Level.ERROR: "error"}  # as a person says it
 
-SMOOTHED = ", smoothed"  # ends the name of a pipeline whose estimates know the whole recording
+
+class Hindsight(NamedTuple):
+    """What a run knew beforehand, with the whole recording at hand."""
+
+    smoothed: bool = False  # every estimate knew the whole recording
+    two_passes: bool = False  # a first pass told the time gate all phases
+
+
+CAUSAL = Hindsight()
 
 
 @dataclass(frozen=True)
@@ -26,6 +34,8 @@ class Result:
     samples: int
     duration_s: float
     pipeline: str
+    smoothed: bool  # see Hindsight
+    two_passes: bool
     strides: int  # the number of steps
     distance_m: float  # the sum of the horizontal stride lengths
     end_position_m: Floats  # (3,)
@@ -45,8 +55,8 @@ class Result:
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the result as strict JSON knows it: plain types, None for NaN and infinity."""
-        names = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "strides", "distance_m"]
-        names += ["end_position_m", "closure_2d_m", "closure_3d_m", "seconds"]
+        names = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes"]
+        names += ["strides", "distance_m", "end_position_m", "closure_2d_m", "closure_3d_m", "seconds"]
         content = {name: getattr(self, name) for name in names}
         content["notices"] = [_notice(notice) for notice in self.notices]
         content["config"] = self.config
@@ -83,7 +93,7 @@ def in_words(result: Result | SensorsResult) -> str:
     if not result.strides:
         return " ".join([f"No stride was found within {duration(result.duration_s)}.", *_notices(result.notices)])
     walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, 'stride')}"
-    how = SMOOTHED if result.pipeline.endswith(SMOOTHED) else ""
+    how = ", smoothed" if result.smoothed else ""
     sentences = [f"{walked} within {duration(result.duration_s)}{how}.", *_error(result), *_notices(result.notices)]
     return " ".join(sentences)
 

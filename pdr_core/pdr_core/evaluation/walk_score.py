@@ -33,7 +33,7 @@ class WalkScore:
 
     @property
     def strides_wrong(self) -> int:
-        """How many strides are missed or counted twice on balance; 0 where the true count is not known."""
+        """By how many strides the count is off; 0 where the true count is not known."""
         return 0 if self.strides_true is None else abs(self.strides - self.strides_true)
 
 
@@ -47,7 +47,7 @@ class Summary:
     worst_m: float
     failed: int  # over FAILED_M, or no number
     counted: int  # recordings whose strides are known
-    strides_wrong: int
+    strides_wrong: int  # by how many the count of each is off, added up
     loops: int  # recordings that end where they began
     closure_2d_m: float  # their mean
     closure_3d_m: float

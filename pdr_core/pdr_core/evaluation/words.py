@@ -1,6 +1,9 @@
 """Numbers as a person says them."""
 
 import math
+from collections.abc import Sequence
+
+from pdr_core.records import Notice
 
 
 def counted(number: int, noun: str) -> str:
@@ -31,6 +34,12 @@ def duration(seconds: float) -> str:
     if whole < 60:
         return f"{whole} s"
     return f"{whole // 60} min {whole % 60} s" if whole < 3600 else f"{whole // 3600} h {whole % 3600 // 60} min"
+
+
+def nothing_usable(recording: str, notices: Sequence[Notice]) -> str:
+    """Return the sentence on a recording without a usable sample, with what the notices say of that."""
+    why = "; ".join(notice.text for notice in notices)
+    return f"{recording} holds no usable sample" + (f": {why}" if why else "")
 
 
 def spoken(name: str) -> str:

@@ -7,14 +7,14 @@ from pdr_core.eskf.smoother import SEGMENT, Smoother
 from pdr_core.eskf.state import FilterState
 from pdr_core.params import Params
 from pdr_core.pipeline.foot_inertial import FootInertial, FootOutput
-from pdr_core.records import ImuBlock, Notice, StepEvent, length, part
+from pdr_core.records import Floats, ImuBlock, Notice, StepEvent, length, part
 
 
 class SmoothedFoot:
     """Samples in; when all are in, estimates and steps out. The filter's decisions and its count of steps stand."""
 
-    def __init__(self, params: Params) -> None:
-        self._forward = FootInertial(params)
+    def __init__(self, params: Params, phases_s: Floats | None = None) -> None:
+        self._forward = FootInertial(params, phases_s=phases_s)
         self._smoother = Smoother(settings(params.filter, params.place))
         self.steps: list[StepEvent] = []  # so far, as the filter had them at the time
 

@@ -6,9 +6,18 @@ import numpy as np
 
 from pdr_core.conventions import GAP_NS, NANOSECONDS
 from pdr_core.intake import Ingestion
-from pdr_core.params import Params, changed
+from pdr_core.parameter import choices_of
+from pdr_core.params import Params, StanceParams, changed
 from pdr_core.records import Flags, Floats, ImuBlock, Stamps, StanceBlock
 from pdr_core.stance import StanceDetection
+
+OFFLINE = "kmeans_offline"  # kmeans, but a first pass over the whole recording has told it the phases
+TIME_GATES = (*choices_of(StanceParams, "time_gate"), OFFLINE)
+
+
+def with_time_gate(params: Params, gate: str) -> Params:
+    """Return the parameters with one of TIME_GATES."""
+    return changed(params, "stance", time_gate="kmeans" if gate == OFFLINE else gate)
 
 
 def stance_phases(pieces: Iterable[ImuBlock], params: Params) -> Floats:

@@ -5,9 +5,9 @@ To keep every k-th sample and drop the rest folds each vibration above half the 
 it, a low-pass filter: a sinc in a Hamming window (Oppenheim and Schafer, Discrete-time signal processing, section 7.5).
 Its weights are symmetric. So it delays nothing, and the value belongs to the stamp that the kept sample has.
 
-Near an end of the recording, a gap, a value that is no number, or a gyro that goes on or off, the filter shrinks on
-both sides alike, until it ends there. So it never mixes what does not belong together, and a rate that was not measured
-stays so.
+Near an end of the recording, a gap, a value that is no number, or a gyro or accelerometer that goes on or off, the
+filter shrinks on both sides alike, until it ends there. So it never mixes what does not belong together, and what was
+not measured stays so.
 """
 
 from collections.abc import Iterator
@@ -67,7 +67,8 @@ def smooth(samples: ImuBlock, start: int, keep_every: int, shape: Floats, kept: 
             accel_variance += (share * samples.accel_sd_mps2[i + k]) ** 2
         if kept.gyro_sd_radps[n] >= 0.0:
             kept.gyro_sd_radps[n] = np.sqrt(gyro_variance)
-        kept.accel_sd_mps2[n] = np.sqrt(accel_variance)
+        if kept.accel_sd_mps2[n] >= 0.0:
+            kept.accel_sd_mps2[n] = np.sqrt(accel_variance)
 
 
 @compiled
@@ -84,13 +85,19 @@ def reach_of(samples: ImuBlock, i: int, longest: int) -> int:
 
 @compiled
 def together(samples: ImuBlock, i: int) -> bool:
-    """Return whether a sample and the next are numbers, and neither a gap nor a switch of the gyro is between them.
+    """Return whether a sample and the next are numbers, and neither a gap nor a switch of a sensor is between them.
 
     Stamps that repeat or change places are those of a burst on arrival: the samples themselves are even.
     """
     apart_ns = abs(samples.stamp_ns[i + 1] - samples.stamp_ns[i])
-    switched = (samples.gyro_sd_radps[i] < 0.0) != (samples.gyro_sd_radps[i + 1] < 0.0)
+    switched = differs(samples.gyro_sd_radps, i) or differs(samples.accel_sd_mps2, i)
     return apart_ns <= GAP_NS and not switched and finite(samples, i) and finite(samples, i + 1)
+
+
+@compiled
+def differs(deviations: Floats, i: int) -> bool:
+    """Return whether one of sample i and the next was measured, and the other not."""
+    return (deviations[i] < 0.0) != (deviations[i + 1] < 0.0)
 
 
 @compiled

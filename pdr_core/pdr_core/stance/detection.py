@@ -17,8 +17,9 @@ class StanceDetection:
     """A detector of the family, the noise of its zero velocities, a time gate, and the soft rest test.
 
     How still a foot stands is told by the default's statistic, the GLRT, whichever detector judges that it stands.
-    A verdict needs half a window of later samples, and what the gate needs: `latency_s` is the longest time by which it
-    follows its sample. `phases_s`, (n,), are the durations of all phases of the recording, where a first pass has told
+    A verdict needs half a window of later samples and the one after them, which tells that the window is complete, and
+    what the gate needs: it follows its sample by at most `latency_s` and one sample interval, with a gate two.
+    `phases_s`, (n,), are the durations of all phases of the recording, where a first pass has told
     them to the gate that learns from them.
     """
 
@@ -59,7 +60,7 @@ class StanceDetection:
 
     @property
     def latency_s(self) -> float:
-        """The longest time [s] from a sample to its verdict."""
+        """The longest time [s] from a sample to its verdict, but for one sample interval, with a gate two."""
         return self._half_window_ns / NANOSECONDS + (self._gate.latency_s if self._gate else 0.0)
 
     def run(self, imu: ImuBlock) -> StanceBlock:

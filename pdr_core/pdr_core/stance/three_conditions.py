@@ -28,8 +28,9 @@ def statistics(
     variance_limit: float,
     rate_limit: float,
 ) -> Floats:
-    """Return the largest of the three ratios, without unit, for the samples start:stop; infinity where the gyro is off.
+    """Return the largest of the three ratios, without unit, for the samples start:stop.
 
+    Infinity where the gyro is off, and for a lonely sample.
     `force_limit` is a share of g, `variance_limit` in m^2/s^4, `rate_limit` in rad^2/s^2.
     """
     firsts, lasts = centred_windows(imu.stamp_ns, start, stop, half_window_ns)
@@ -43,7 +44,9 @@ def statistics(
 
 @compiled
 def magnitude_variance(force_mps2: Floats, first: int, last: int) -> float:
-    """Return the variance of |a| [m^2/s^4] over the rows first:last."""
+    """Return the variance of |a| [m^2/s^4] over the rows first:last; infinity of one row, which shows no change."""
+    if last - first < 2:
+        return np.inf
     mean = 0.0
     for k in range(first, last):
         mean += norm(row(force_mps2, k)) / (last - first)

@@ -1,17 +1,19 @@
 """Detectors, windows and ablation on a short simulated walk of which everything is known."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from pdr_core.bench.ablation import FULL, OFF, without
-from pdr_core.bench.detectors import DETECTORS, GATES, OFFLINE, study, with_choice
+from pdr_core.bench.detectors import DETECTORS, study, with_choice
 from pdr_core.bench.trial import NoSamples, Walk, trial
 from pdr_core.bench.windows import LONGEST_S, SIZES, ingested, lengths_s, swings, window_steps, with_window
 from pdr_core.evaluation.detector_study import Choice
 from pdr_core.evaluation.walk_score import FAILED_M
 from pdr_core.params import Params, SimulationParams, changed
+from pdr_core.pipeline.stance_phases import OFFLINE, TIME_GATES
 from pdr_core.records import NO_SAMPLES, part
 from pdr_core.simulation import simulated_walk
 
@@ -30,13 +32,13 @@ def walk():
 @pytest.fixture(scope="module")
 def deep(walk):
     said = []
-    return SimpleNamespace(study=study(walk, PARAMS, DETECTORS, GATES, True, said.append), said=said)
+    return SimpleNamespace(study=study(walk, PARAMS, DETECTORS, TIME_GATES, True, said.append), said=said)
 
 
 def test_every_detector_runs_with_every_gate(deep):
-    assert list(deep.study.scores) == [Choice(d, g) for d in DETECTORS for g in GATES]
+    assert list(deep.study.scores) == [Choice(d, g) for d in DETECTORS for g in TIME_GATES]
     assert {"adaptive", "glrt", "mbgtd"} <= set(DETECTORS)
-    assert GATES == ("none", "gait_phases", "kmeans", OFFLINE)
+    assert TIME_GATES == ("none", "gait_phases", "kmeans", OFFLINE)
     for choice, score in deep.study.scores.items():
         assert score.error_m < FAILED_M, choice
         assert score.strides == STRIDES or choice.detector not in ("adaptive", "glrt"), choice
@@ -46,7 +48,7 @@ def test_every_detector_runs_with_every_gate(deep):
 def test_each_detector_has_its_own_curve_with_a_lane_for_each_gate(deep):
     assert [one.detector for one in deep.study.curves] == list(DETECTORS)
     assert len({one.statistic.value.tobytes() for one in deep.study.curves}) == len(DETECTORS) - 1  # adaptive is a glrt
-    assert all(list(one.stance_s) == list(GATES) for one in deep.study.curves)
+    assert all(list(one.stance_s) == list(TIME_GATES) for one in deep.study.curves)
     assert np.nanmax(deep.study.speed.value) > 1.0
 
 
@@ -64,9 +66,9 @@ def test_the_default_choice_is_the_default():
     assert with_choice(PARAMS, Choice("adaptive", OFFLINE)) == with_choice(PARAMS, Choice("adaptive", "kmeans"))
 
 
-def test_windows_grow_from_one_sample_and_short_ones_find_more_steps(deep):
+def test_windows_grow_from_three_samples_and_short_ones_find_more_steps(deep):
     found = deep.study.windows
-    assert found.window_s == pytest.approx(np.linspace(1.0 / RATE_HZ, LONGEST_S, SIZES))
+    assert found.window_s == pytest.approx(np.linspace(3.0 / RATE_HZ, LONGEST_S, SIZES))
     assert list(found.steps) == list(DETECTORS)
     for detector, steps in found.steps.items():
         assert len(steps) == SIZES
@@ -113,7 +115,12 @@ def test_where_the_pieces_are_cut_changes_nothing(walk):
     assert trial(cut, PARAMS).score == trial(walk, PARAMS).score
 
 
+def test_without_truth_no_part_can_be_worth_anything(walk):
+    unknown = study(replace(walk, truth=None), PARAMS, ["glrt"], ["none"], True)
+    assert (unknown.windows is not None, unknown.ablation) == (True, {})
+
+
 @pytest.mark.parametrize("pieces", [[], [NO_SAMPLES]])
 def test_a_recording_without_samples_is_said_to_be_so(pieces):
-    with pytest.raises(NoSamples, match="empty holds no usable sample"):
+    with pytest.raises(NoSamples, match=r"empty holds no usable sample$"):
         study(Walk("empty", pieces, None), PARAMS, ["glrt"], ["none"], False)

@@ -98,6 +98,8 @@ def result_of(**changes):
         "samples": 201,
         "duration_s": 100.0,
         "pipeline": "foot_inertial",
+        "smoothed": False,
+        "two_passes": False,
         "strides": 52,
         "distance_m": 98.44,
         "end_position_m": np.array([1.0, 2.0, 3.0]),

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,10 +16,11 @@ from pdr_core.evaluation.detector_page import detector_page
 from pdr_core.evaluation.detector_study import Choice, DetectorStudy, WindowSteps
 from pdr_core.evaluation.detector_tables import as_csv, as_json, figures, summaries, worth
 from pdr_core.evaluation.score import Scorer
-from pdr_core.evaluation.walk_score import walk_score
+from pdr_core.evaluation.walk_score import WalkScore, walk_score
 from pdr_core.records import Truth, TruthKind
 
 NAN = float("nan")
+UNKNOWN = WalkScore("none", 26, None, NAN, NAN, NAN, NAN, NAN, 0.4)
 
 
 @pytest.fixture(scope="module")
@@ -110,6 +112,18 @@ def test_tables_leave_out_what_nobody_knows(studies):
     assert summaries(studies).heads[-3:] == ("worst m", "over 1 m", "strides wrong")
     assert [row[0] for row in worth(studies).rows] == ["nothing", "confidence"]
     assert worth([SimpleNamespace(ablation={})]).rows == []
+
+
+def test_no_table_has_names_alone(studies):
+    nobody = [replace(s, scores=dict.fromkeys(s.scores, UNKNOWN), ablation={}) for s in studies]
+    assert summaries(nobody).rows == worth(nobody).rows == []
+    assert figures(nobody).heads == ("recording", "detector", "gate", "strides", "stance %")
+    text = detector_page(nobody, "1.0", "abc")
+    assert ("All figures" in text, "Each detector over" in text) == (True, False)
+
+
+def test_the_worth_of_parts_comes_from_the_recordings_that_tell_it(studies):
+    assert worth([replace(studies[0], ablation={}), *studies[1:]]) == worth(studies[1:])
 
 
 def test_machines_get_every_figure(studies):

@@ -8,8 +8,9 @@ from pdr_core.evaluation.result import SensorsResult, in_words
 from pdr_core.evaluation.score import TruthScore
 from pdr_core.records import Level, Notice, TruthKind
 
-KEYS = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "strides", "distance_m"]
-KEYS += ["end_position_m", "closure_2d_m", "closure_3d_m", "seconds", "notices", "config", "truth", "version", "commit"]
+KEYS = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes", "strides"]
+KEYS += ["distance_m", "end_position_m", "closure_2d_m", "closure_3d_m", "seconds", "notices", "config", "truth"]
+KEYS += ["version", "commit"]
 
 
 def strict(text):
@@ -75,6 +76,12 @@ def test_words_without_truth(make):
         "Walked 98.4 m in 52 strides within 1 min 40 s. The estimate ends 2.24 m from where it began; the true path is "
         "not known. Warning: The sensor was silent for 0.3 s (3 times)."
     )
+
+
+def test_a_smoothed_run_is_said_to_be_one_whatever_its_pipeline_is_called(make):
+    assert strict(make.result_of(smoothed=True).to_json())["smoothed"] is True
+    assert " within 1 min 40 s, smoothed. " in in_words(make.result_of(smoothed=True))
+    assert "smoothed" not in in_words(make.result_of(pipeline="any, smoothed"))
 
 
 def test_words_with_truth(make):

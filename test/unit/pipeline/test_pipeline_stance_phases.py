@@ -7,19 +7,14 @@ from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial, stance_phases
 from pdr_core.records import length, part
 from pdr_core.simulation import simulated_walk
+from support.walks import walk_with_dips
 
 WALK = simulated_walk(SimulationParams(walk="straight", walk_length_m=18.0), start_ns=10**18)
-DIP = 10  # samples
 
 
 @pytest.fixture(scope="module")
 def deceiving():
-    """A walk in whose swings the foot is still for a moment."""
-    imu = type(WALK.imu)(*(column.copy() for column in WALK.imu))
-    toe_offs = np.flatnonzero(np.diff(WALK.motion.stance.astype(int)) == -1)
-    dips = np.concatenate([np.arange(at + 40, at + 40 + DIP) for at in toe_offs])
-    imu.gyro_radps[dips], imu.accel_mps2[dips] = 0.0, [0.0, 0.0, 9.81]
-    return imu, dips
+    return walk_with_dips(15)
 
 
 def standing(imu, params, phases_s=None):

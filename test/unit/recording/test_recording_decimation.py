@@ -91,16 +91,16 @@ def test_the_noise_that_is_told_is_the_noise_there_is(k):
     assert not whole(samples(np.zeros(99)), k).gyro_sd_radps.any(), "unknown stays unknown"
 
 
-def test_a_gyro_that_was_off_is_off_and_nothing_of_it_is_mixed_in():
+@pytest.mark.parametrize(("values", "deviations"), [("gyro_radps", "gyro_sd_radps"), ("accel_mps2", "accel_sd_mps2")])
+def test_what_was_not_measured_stays_so_and_nothing_of_it_is_mixed_in(values, deviations):
     block, off = noisy(), slice(100, 203)
-    block.gyro_sd_radps[off], block.gyro_radps[off] = -1.0, 0.0
+    getattr(block, deviations)[off], getattr(block, values)[off] = -1.0, 0.0
     out = whole(block, 4)
-    np.testing.assert_array_equal(out.gyro_sd_radps < 0.0, block.gyro_sd_radps[::4] < 0.0)
-    assert not out.gyro_radps[out.gyro_sd_radps < 0.0].any()
-    block.gyro_radps[off] = 1e6
-    np.testing.assert_array_equal(
-        whole(block, 4).gyro_radps[out.gyro_sd_radps >= 0], out.gyro_radps[out.gyro_sd_radps >= 0]
-    )
+    on = getattr(out, deviations) >= 0.0
+    np.testing.assert_array_equal(on, getattr(block, deviations)[::4] >= 0.0)
+    assert not getattr(out, values)[~on].any()
+    getattr(block, values)[off] = 1e6
+    np.testing.assert_array_equal(getattr(whole(block, 4), values)[on], getattr(out, values)[on])
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

@@ -95,6 +95,16 @@ def test_only_what_needs_the_gyro_is_blind_without_it(name):
     np.testing.assert_array_equal(blind, near if name in NEEDS_GYRO else np.zeros(N, bool))
 
 
+@pytest.mark.parametrize("name", ["acceleration_moving_variance", "mbgtd", "three_conditions"])
+def test_a_sample_between_two_gaps_shows_no_change_and_so_no_rest(name):
+    imu = random_block(5)
+    imu.stamp_ns[20:] += 10**9
+    imu.stamp_ns[21:] += 10**9
+    detector, numbers, _ = FAMILY[name]
+    found = detector.statistics(imu, 0, N, 10 * MS, *numbers)
+    np.testing.assert_array_equal(np.flatnonzero(np.isinf(found)), [20])
+
+
 def test_free_fall_is_no_rest_as_qiu_22_would_have_it():
     falling = random_block(3)
     falling.accel_mps2[:], falling.gyro_radps[:] = 0.0, 0.0
