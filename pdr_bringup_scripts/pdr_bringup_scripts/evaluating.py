@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from pdr_bringup_scripts.problems import Problem
-from pdr_core.conventions import NANOSECONDS
+from pdr_core.conventions import nanoseconds
 from pdr_core.evaluation.association import interpolated, nearest
 from pdr_core.evaluation.comparison import Comparison, compare
 from pdr_core.evaluation.dropouts import measured
@@ -25,7 +25,7 @@ def paired(estimate: Truth, truth: Truth, how: Pairing) -> tuple[Stamps, Floats,
         truth = Truth(truth.kind, truth.stamp_ns[rows], truth.position_m[rows])
     if how.within_s is None:
         return interpolated(estimate, truth)
-    return nearest(estimate, truth, round(how.within_s * NANOSECONDS))
+    return nearest(estimate, truth, nanoseconds(how.within_s))
 
 
 def evaluated(rows: tuple[Stamps, Floats, Floats], trajectory: Path, truth: Path) -> Comparison:

@@ -231,14 +231,19 @@ def test_stamps_increase_and_what_is_left_out_is_named(rate_hz, samples, start_n
     assert named <= length(raw) - length(out) <= named + told.get("constant_rate", 0)
 
 
+def interrupted(at, samples, start_ns, at_its_time):
+    """A recording with mad samples in between, stamped as they should be there or from `start_ns` on."""
+    begin = int(RAW.stamp_ns[min(at, length(RAW) - 1)]) if at_its_time else start_ns
+    return part(RAW, 0, at), mad_block(samples, begin), part(RAW, at)
+
+
 @given(st.integers(0, length(RAW)), SAMPLES, st.integers(-(2**63), 2**63 - 1), st.booleans())
 @settings(max_examples=100)
 def test_nothing_that_comes_in_brings_the_smoother_down(at, samples, start_ns, at_its_time):
     chain = SmoothedFoot(PARAMS)
-    begin = int(RAW.stamp_ns[min(at, length(RAW) - 1)]) if at_its_time else start_ns
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        for block in (part(RAW, 0, at), mad_block(samples, begin), part(RAW, at)):
+        for block in interrupted(at, samples, start_ns, at_its_time):
             chain.run(block)
         for out in chain.finish():
             assert_sound(out.nav, out.steps)
@@ -248,10 +253,9 @@ def test_nothing_that_comes_in_brings_the_smoother_down(at, samples, start_ns, a
 @settings(max_examples=300)
 def test_nothing_that_comes_in_brings_the_chain_down(at, samples, start_ns, at_its_time):
     chain = FootInertial(PARAMS)
-    begin = int(RAW.stamp_ns[min(at, length(RAW) - 1)]) if at_its_time else start_ns
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # a step across 30 years has no covariance of its own
-        for block in (part(RAW, 0, at), mad_block(samples, begin), part(RAW, at)):
+        for block in interrupted(at, samples, start_ns, at_its_time):
             out = chain.run(block)
             assert_sound(out.nav, out.steps)
         end = chain.finish()

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, gravity_mps2
+from pdr_core.conventions import gravity_mps2, nanoseconds
 from pdr_core.eskf.process import ProcessNoise
 from pdr_core.eskf.settings import Settings
 from pdr_core.params import FilterParams, PlaceParams
@@ -22,7 +22,7 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         samples=KINDS[p.samples],
         gravity_mps2=gravity_mps2(np.radians(place.latitude_deg), place.height_m),
         gravity_from_rest=p.gravity_source == "rest",
-        alignment_ns=round(p.alignment_s * NANOSECONDS),
+        alignment_ns=nanoseconds(p.alignment_s),
         initial_yaw_rad=p.initial_yaw_rad,
         initial_sd=np.array(position_and_velocity + attitude + biases),
         zero_velocity_sd_mps=p.zero_velocity_sd_mps,
@@ -30,7 +30,7 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         huber=p.huber,
         gate=p.gate,
         release_s=p.gate_release_s,
-        merge_ns=round(p.step_merge_s * NANOSECONDS),
+        merge_ns=nanoseconds(p.step_merge_s),
         step_min_m=p.step_min_m,
         step_turn_min_rad=p.step_turn_min_rad,
         level_ground=p.level_ground,

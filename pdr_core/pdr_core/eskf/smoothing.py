@@ -7,16 +7,16 @@ in docs/smoothing.md.
 
 import numpy as np
 
-from pdr_core.eskf.error_state import ATTITUDE, POSITION
+from pdr_core.eskf.error_state import POSITION
 from pdr_core.eskf.floor import HEIGHT
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import empty_nav, write
 from pdr_core.eskf.state import FilterState
+from pdr_core.eskf.step_events import note_end
 from pdr_core.eskf.tape import Tape, error_between, note_nominal
 from pdr_core.eskf.updates import inject
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.kalman import smoothed, smoother_gain
-from pdr_core.maths.quaternion import yaw_rad
 from pdr_core.maths.vector import product
 from pdr_core.records import Flags, Floats, NavBlock
 
@@ -65,19 +65,10 @@ def look_back(tape: Tape, i: int) -> None:
 
 @compiled
 def settle(state: FilterState) -> None:
-    """Note the foot that a step leaves: pose, and covariance of the displacement from here to where the step ends."""
-    P = state.P
-    state.end_position_m[1] = state.position_m
-    state.end_yaw_rad[1] = yaw_rad(state.quat_xyzw)
-    state.end_yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
-    for i in range(3):
-        for j in range(3):
-            here = P[POSITION + i, POSITION + j]
-            together = state.cross[POSITION + i, j] + state.cross[POSITION + j, i]
-            state.displacement_covariance[i, j] = here + state.end_covariance[0, i, j] - together
-            state.end_covariance[1, i, j] = here
+    """Note the foot that a step leaves, with the displacement from here to where the step ends."""
+    note_end(state)
     state.end_covariance[0] = state.end_covariance[1]
-    state.cross[:, :3] = P[:, POSITION : POSITION + 3]
+    state.cross[:, :3] = state.P[:, POSITION : POSITION + 3]
 
 
 def estimates(tape: Tape) -> NavBlock:

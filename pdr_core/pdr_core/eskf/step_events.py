@@ -23,10 +23,21 @@ ENDS = ("end_ns", "end_sample", "end_position_m", "end_covariance", "end_quat_xy
 @compiled
 def stand(stamp_ns: int, state: FilterState) -> None:
     """Note that the stance lasts until now."""
-    P = state.P
     state.excursion_m = max(state.excursion_m, state.away_m)
     state.away_m = 0.0
     state.end_ns[1], state.end_sample[1] = stamp_ns, state.samples
+    note_end(state)
+    for i in range(SIZE):
+        for j in range(3):
+            state.cross[i, 3 + j] = state.P[i, POSITION + j]
+    for j in range(3):
+        state.floor_ends[0, 3 + j] = state.floor_cross[POSITION + j, 0]
+
+
+@compiled
+def note_end(state: FilterState) -> None:
+    """Note the foot as it stands now: pose, and covariance of the displacement between here and the other end."""
+    P = state.P
     state.end_quat_xyzw[1] = state.quat_xyzw
     state.end_yaw_rad[1] = yaw_rad(state.quat_xyzw)
     state.end_yaw_sd_rad[1] = np.sqrt(P[ATTITUDE + 2, ATTITUDE + 2])
@@ -38,11 +49,6 @@ def stand(stamp_ns: int, state: FilterState) -> None:
             state.displacement_covariance[i, j] = (
                 now + state.end_covariance[0, i, j] - state.cross[POSITION + i, j] - state.cross[POSITION + j, i]
             )
-    for i in range(SIZE):
-        for j in range(3):
-            state.cross[i, 3 + j] = P[i, POSITION + j]
-    for j in range(3):
-        state.floor_ends[0, 3 + j] = state.floor_cross[POSITION + j, 0]
 
 
 @compiled

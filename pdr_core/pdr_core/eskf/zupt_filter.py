@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, NO_STAMP
+from pdr_core.conventions import NO_STAMP, nanoseconds
 from pdr_core.eskf import health
 from pdr_core.eskf.answers import NOTHING_DUE_NS, Answers
 from pdr_core.eskf.configure import settings
@@ -35,7 +35,7 @@ class ZuptFilter:
         self._settings = settings(params, place)
         self._usual_sd = self._settings.initial_sd
         self.asks = params.heading_feedback
-        self._answer_due_ns = round(params.heading_due_s * NANOSECONDS)
+        self._answer_due_ns = nanoseconds(params.heading_due_s)
         self._answers = Answers()
         self._held: StanceBlock | None = None  # samples behind one that waits for an answer
         self.handovers: list[Handover] = []  # one for each step that `run` or `finish` returned last

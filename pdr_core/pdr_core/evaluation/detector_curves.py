@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, seconds_between
+from pdr_core.conventions import nanoseconds, seconds_between
 from pdr_core.evaluation import dropouts
 from pdr_core.evaluation.score import in_order
 from pdr_core.records import Flags, Floats, StanceBlock, Truth, TruthKind
@@ -79,7 +79,7 @@ def true_speed(truth: Truth | None, start_ns: int) -> Curve | None:
     if truth is None or truth.kind is not TruthKind.POSITION:
         return None
     known = in_order(truth)
-    later = np.searchsorted(known.stamp_ns, known.stamp_ns + round(SPEED_OVER_S * NANOSECONDS))
+    later = np.searchsorted(known.stamp_ns, known.stamp_ns + nanoseconds(SPEED_OVER_S))
     rows = np.flatnonzero(later < len(later))
     time_s, later = seconds_between(known.stamp_ns, start_ns), later[rows]
     good = dropouts.measured(known.stamp_ns, known.position_m)

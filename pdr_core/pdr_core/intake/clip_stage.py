@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS
+from pdr_core.conventions import nanoseconds
 from pdr_core.intake.clip_repair import CONTEXT, ClipLimits, Waiting, repair
 from pdr_core.params import IntakeParams
 from pdr_core.records import NO_SAMPLES, Flags, ImuBlock, joined, length, part
@@ -12,7 +12,7 @@ class ClipRepair:
     """Holds samples back and gives them out, in order, with their rates repaired."""
 
     def __init__(self, params: IntakeParams) -> None:
-        self._limits = ClipLimits(params.clip_smallest_radps, round(params.clip_longest_s * NANOSECONDS))
+        self._limits = ClipLimits(params.clip_smallest_radps, nanoseconds(params.clip_longest_s))
         self._samples, rates = NO_SAMPLES, NO_SAMPLES.gyro_radps
         self._waiting = Waiting(
             NO_SAMPLES.stamp_ns, rates, rates, np.zeros(0, np.bool_), np.zeros(3, np.int64), np.zeros((3, 2))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS
+from pdr_core.conventions import NANOSECONDS, nanoseconds
 from pdr_core.intake.stamp_faults import NOTICES
 from pdr_core.intake.stamp_rules import StampLimits, judged
 from pdr_core.intake.stamp_state import NOBODY, fresh_state
@@ -20,7 +20,7 @@ class StampPolicy:
     def __init__(self, params: IntakeParams) -> None:
         rate_hz = params.constant_rate_hz
         period_ns = round(NANOSECONDS / rate_hz) if rate_hz > 0.0 else 0
-        self._limits = StampLimits(round(params.restart_s * NANOSECONDS), period_ns)
+        self._limits = StampLimits(nanoseconds(params.restart_s), period_ns)
         self._state = fresh_state()
         self._waiting = NO_SAMPLES
         self._tally = Tally()

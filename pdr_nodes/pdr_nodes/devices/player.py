@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, NO_STAMP
+from pdr_core.conventions import NANOSECONDS, NO_STAMP, nanoseconds
 from pdr_core.recording.decimation import ThinnedStream, kept_of
 from pdr_core.records import ImuBlock
 from pdr_nodes.devices.source import Source
@@ -61,7 +61,7 @@ class Player:
 
         def switch(at_ns: int) -> None:
             if on and not self._gyro_on:
-                self._settled_ns = at_ns + round(self.settling_s * NANOSECONDS)
+                self._settled_ns = at_ns + nanoseconds(self.settling_s)
             self._gyro_on = on
 
         return self._plan(switch, not_before_ns)
