@@ -20,16 +20,26 @@ Block = TypeVar("Block", bound=tuple)
 
 
 class ImuBlock(NamedTuple):
-    """n samples of one inertial sensor. A standard deviation of -1 says that the quantity was not measured."""
+    """n samples of one inertial (and magnetic) sensor. A standard deviation of -1 says: this was not measured."""
 
     stamp_ns: Stamps  # (n,)
     gyro_radps: Floats  # (n, 3) angular rate
     accel_mps2: Floats  # (n, 3) specific force, +g upwards at rest
     gyro_sd_radps: Floats  # (n,) noise of one sample; 0 = unknown
     accel_sd_mps2: Floats  # (n,)
+    field_tesla: Floats  # (n, 3) magnetic field
+    field_sd_tesla: Floats  # (n,)
 
 
-NO_SAMPLES = ImuBlock(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
+def inertial_block(
+    stamp_ns: Stamps, gyro_radps: Floats, accel_mps2: Floats, gyro_sd_radps: Floats, accel_sd_mps2: Floats
+) -> ImuBlock:
+    """Return n samples of a sensor without a magnetometer."""
+    n = len(stamp_ns)
+    return ImuBlock(stamp_ns, gyro_radps, accel_mps2, gyro_sd_radps, accel_sd_mps2, np.zeros((n, 3)), np.full(n, -1.0))
+
+
+NO_SAMPLES = inertial_block(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
 
 
 class StanceBlock(NamedTuple):

@@ -12,7 +12,7 @@ from sensor_msgs.msg import Imu
 
 from pdr_core import records
 from pdr_core.conventions import NANOSECONDS, NO_STAMP
-from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock
+from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock, inertial_block
 from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
@@ -81,7 +81,7 @@ def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str) -> Imu:
 def imu_block(message: Imu) -> ImuBlock:
     """Return a message as a block of one sample; rates that were not measured are zero."""
     gyro_sd = deviation(message.angular_velocity_covariance)
-    return ImuBlock(
+    return inertial_block(
         np.array([stamp_ns(message.header.stamp)]),
         np.array([numbers(message.angular_velocity)]) if gyro_sd >= 0.0 else np.zeros((1, 3)),
         np.array([numbers(message.linear_acceleration)]),

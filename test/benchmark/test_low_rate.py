@@ -13,7 +13,7 @@ import pytest
 from pdr_core.params import Params, changed
 from pdr_core.recording import Session
 from pdr_core.recording.decimation import kept_of, rate_of_hz, thinned
-from pdr_core.records import ImuBlock, length, part
+from pdr_core.records import ImuBlock, inertial_block, length, part
 from support.development_table import Row, line, measured
 from support.held_recordings import TILES, VICON, XIO, Held, held, only, with_samples
 
@@ -37,7 +37,7 @@ def averaged(samples: ImuBlock, k: int) -> ImuBlock:
     """Each sample the mean of k, at the last one's stamp: a sensor that averages."""
     whole = part(samples, 0, length(samples) // k * k)
     means = (column.reshape(-1, k, *column.shape[1:]).mean(axis=1) for column in whole[1:])
-    return ImuBlock(whole.stamp_ns[k - 1 :: k].copy(), *means)
+    return inertial_block(whole.stamp_ns[k - 1 :: k].copy(), *means)
 
 
 WAYS: dict[str, tuple[Lower, Params]] = {

@@ -15,7 +15,7 @@ from pdr_core.intake import Ingestion
 from pdr_core.intake.stamp_policy import StampPolicy
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial, SmoothedFoot
-from pdr_core.records import ImuBlock, joined, length, part
+from pdr_core.records import ImuBlock, inertial_block, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
 
@@ -204,7 +204,7 @@ def mad_block(samples, start_ns):
         stamps.append(stamp)
     table = np.array([s[1:] for s in samples], float)
     sd = table[:, 6].copy()
-    return ImuBlock(np.array(stamps, np.int64), table[:, :3].copy(), table[:, 3:6].copy(), sd, np.zeros(len(sd)))
+    return inertial_block(np.array(stamps, np.int64), table[:, :3].copy(), table[:, 3:6].copy(), sd, np.zeros(len(sd)))
 
 
 def assert_sound(nav, steps):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.records import ImuBlock, StanceBlock, length, part
+from pdr_core.records import ImuBlock, StanceBlock, inertial_block, length, part
 from pdr_core.stance import StanceDetection
 
 PERIOD_NS = 5_000_000
@@ -13,7 +13,7 @@ def verdicts(*spans: tuple[float, bool], start_ns: int = 10**18) -> StanceBlock:
     resting = np.concatenate([np.full(round(seconds * 200), rests) for seconds, rests in spans])
     n = len(resting)
     stamps = start_ns + PERIOD_NS * np.arange(n, dtype=np.int64)
-    imu = ImuBlock(stamps, np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n))
+    imu = inertial_block(stamps, np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n))
     return StanceBlock(imu, resting, np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((n, 3)), np.zeros(n))
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params, SimulationParams
-from pdr_core.records import ImuBlock, Stamps, StanceBlock, joined, length
+from pdr_core.records import ImuBlock, Stamps, StanceBlock, inertial_block, joined, length
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.stance import StanceDetection
 from pdr_nodes.convert import imu_message, stance_message
@@ -41,7 +41,7 @@ def still(seconds: float, begin_ns: int, rate_hz: float = 100.0) -> ImuBlock:
     """Return a resting sensor without noise."""
     n = round(seconds * rate_hz)
     stamp_ns = begin_ns + np.arange(n, dtype=np.int64) * round(1e9 / rate_hz)
-    return ImuBlock(stamp_ns, np.zeros((n, 3)), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n))
+    return inertial_block(stamp_ns, np.zeros((n, 3)), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n))
 
 
 def judged(raw: ImuBlock) -> StanceBlock:

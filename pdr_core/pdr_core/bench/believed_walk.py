@@ -11,7 +11,7 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, gravity_mps2, stamp_ns_from_seconds
 from pdr_core.params import FilterParams, Params, PlaceParams, changed
-from pdr_core.records import Floats, ImuBlock, Stamps
+from pdr_core.records import Floats, ImuBlock, Stamps, inertial_block
 from pdr_core.simulation.courses import gui_rectangle
 from pdr_core.simulation.gui_motion import GuiCourse, Phase
 from pdr_core.simulation.imu_model import SENSOR_MODELS
@@ -75,7 +75,7 @@ def believed_walk(where: Ground, believed: FilterParams, trembles: bool, seed: i
     gyro, accel = interval_means(where.stamp_ns, position_m, velocity_mps, where.motion.quat_xyzw, gravity)
     gyro += drawn(rng, n, believed.initial_gyro_bias_sd_radps, believed.gyro_bias_walk, CONSUMER.gyro_noise_density)
     accel += drawn(rng, n, believed.initial_accel_bias_sd_mps2, believed.accel_bias_walk, CONSUMER.accel_noise_density)
-    return BelievedWalk(position_m, velocity_mps, ImuBlock(where.stamp_ns, gyro, accel, np.zeros(n), np.zeros(n)))
+    return BelievedWalk(position_m, velocity_mps, inertial_block(where.stamp_ns, gyro, accel, np.zeros(n), np.zeros(n)))
 
 
 def drawn(rng: np.random.Generator, n: int, bias_sd: float, walk: float, density: float) -> Floats:

@@ -4,7 +4,7 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.recording.stamped_cdr import LITTLE_ENDIAN, encoded, stamped_layout
-from pdr_core.records import Floats, ImuBlock
+from pdr_core.records import Floats, ImuBlock, inertial_block
 
 NUMBERS = 37  # orientation 4 + 9, angular rate 3 + 9, acceleration 3 + 9: each with its covariance
 ORIENTATION, RATE, ACCELERATION = 0, 13, 25
@@ -26,7 +26,7 @@ def imu_block_from_cdr(messages: list[bytes]) -> ImuBlock | None:
     stamp_ns = table["sec"].astype(np.int64) * NANOSECONDS + table["nanosec"]
     gyro, gyro_sd = _measured(table["numbers"], RATE)
     accel, accel_sd = _measured(table["numbers"], ACCELERATION)
-    return ImuBlock(stamp_ns, gyro, accel, gyro_sd, accel_sd)
+    return inertial_block(stamp_ns, gyro, accel, gyro_sd, accel_sd)
 
 
 def cdr_from_imu_block(block: ImuBlock, frame_id: str) -> list[bytes]:

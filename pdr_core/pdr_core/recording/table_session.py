@@ -11,7 +11,7 @@ from pdr_core.recording.column_map_yaml import column_map_from_file, known_maps
 from pdr_core.recording.session import RecordingError, Sensor, Session
 from pdr_core.recording.table import Clock, Table, positions
 from pdr_core.recording.table_truth import clock_of, load_truth, open_table
-from pdr_core.records import ImuBlock, Notice
+from pdr_core.records import ImuBlock, Notice, inertial_block
 
 FOLDER_MAP = "pdr_columns.yaml"
 COLUMNS_SHOWN = 12
@@ -100,4 +100,4 @@ def _blocks(
     scale = np.array([*sensor.gyro.scale, *sensor.accel.scale])
     for rows in table.pieces(clock, columns, max_samples, notices):
         values, unknown = rows.values * scale, np.zeros(len(rows.values))
-        yield ImuBlock(rows.stamp_ns, values[:, :3], values[:, 3:], unknown, unknown)
+        yield inertial_block(rows.stamp_ns, values[:, :3], values[:, 3:], unknown, unknown)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pdr_core.records import Floats, ImuBlock, Stamps
+from pdr_core.records import Floats, ImuBlock, Stamps, inertial_block
 from pdr_core.simulation.motion import Motion
 
 EARTH_RATE_RADPS = 7.292115e-5  # of WGS 84
@@ -87,4 +87,4 @@ def sensed(
     accel = accel_mps2 + accel_bias + model.accel_noise_density * noise[1]
     gyro = np.clip(gyro, -model.gyro_range_radps, model.gyro_range_radps)
     accel = np.clip(accel, -model.accel_range_mps2, model.accel_range_mps2)
-    return ImuBlock(stamp_ns, gyro, accel, np.zeros(len(stamp_ns)), np.zeros(len(stamp_ns)))
+    return inertial_block(stamp_ns, gyro, accel, np.zeros(len(stamp_ns)), np.zeros(len(stamp_ns)))

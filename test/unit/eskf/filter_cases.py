@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from pdr_core.eskf.process import carry, link
 from pdr_core.eskf.state import fresh_state
 from pdr_core.eskf.updates import inject
-from pdr_core.records import ImuBlock, StanceBlock
+from pdr_core.records import StanceBlock, inertial_block
 from pdr_core.strapdown.mechanisation import advance
 
 G = 9.81
@@ -85,4 +85,4 @@ def standing(seconds, rate_hz=200.0, start_ns=0, gyro_sd=0.014, accel_sd=0.2):
     n = round(seconds * rate_hz)
     stamps = start_ns + np.arange(n, dtype=np.int64) * round(1e9 / rate_hz)
     force = np.tile([0.0, 0.0, G], (n, 1))
-    return ImuBlock(stamps, np.zeros((n, 3)), force, np.full(n, gyro_sd), np.full(n, accel_sd))
+    return inertial_block(stamps, np.zeros((n, 3)), force, np.full(n, gyro_sd), np.full(n, accel_sd))

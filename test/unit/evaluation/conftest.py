@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pdr_core.evaluation.result import Result
-from pdr_core.records import ImuBlock, Level, NavBlock, Notice, StanceBlock, StepEvent
+from pdr_core.records import Level, NavBlock, Notice, StanceBlock, StepEvent, inertial_block
 
 PERIOD_NS = 10_000_000  # 100 Hz
 STRIDE_SAMPLES, STANCE_SAMPLES = 120, 50
@@ -27,7 +27,7 @@ def nav_block(stamp_ns, position_m, yaw_rad=0.0, covariance=None):
 
 def stance_block(stamp_ns, stance, statistic=None):
     n, stamps = len(stamp_ns), np.asarray(stamp_ns, dtype=np.int64)
-    imu = ImuBlock(stamps, np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n))
+    imu = inertial_block(stamps, np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n))
     statistic = np.where(stance, 5.0, 500.0) if statistic is None else np.asarray(statistic, dtype=float)
     return StanceBlock(
         imu, np.asarray(stance, dtype=bool), statistic, np.full(n, 30.0), np.zeros(n), np.zeros((n, 3)), np.zeros(n)

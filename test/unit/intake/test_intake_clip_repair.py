@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from pdr_core.intake.clip_stage import ClipRepair
 from pdr_core.params import IntakeParams
-from pdr_core.records import ImuBlock, joined, length, part
+from pdr_core.records import inertial_block, joined, length, part
 
 MS, BEGIN_NS = 1_000_000, 10**18
 
@@ -13,7 +13,9 @@ MS, BEGIN_NS = 1_000_000, 10**18
 def block(gyro, rate_hz=200.0):
     n = len(gyro)
     stamps = BEGIN_NS + np.rint(np.arange(n) * 1e9 / rate_hz).astype(np.int64)
-    return ImuBlock(stamps, np.ascontiguousarray(gyro), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n))
+    return inertial_block(
+        stamps, np.ascontiguousarray(gyro), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n)
+    )
 
 
 def swings(rate_hz=200.0, peak=14.0, limit=np.inf, seed=0, noise=0.0):

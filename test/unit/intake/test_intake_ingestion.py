@@ -6,14 +6,14 @@ from scipy.spatial.transform import Rotation
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import IntakeParams
-from pdr_core.records import ImuBlock, Level, joined, length, part
+from pdr_core.records import Level, inertial_block, joined, length, part
 
 MS, BEGIN_NS = 1_000_000, 10**18
 
 
 def still(n=20, period_ms=10, begin_ns=BEGIN_NS):
     stamps = begin_ns + np.arange(n, dtype=np.int64) * period_ms * MS
-    return ImuBlock(stamps, np.full((n, 3), 0.01), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n))
+    return inertial_block(stamps, np.full((n, 3), 0.01), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n))
 
 
 def taken(imu, **params):

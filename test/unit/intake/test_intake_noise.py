@@ -3,7 +3,7 @@ import pytest
 
 from pdr_core.intake.noise import channels, sample_noise
 from pdr_core.params import IntakeParams
-from pdr_core.records import ImuBlock, part
+from pdr_core.records import inertial_block, part
 
 P = IntakeParams(gyro_noise_density=0.001, accel_noise_density=0.01, change_noise=0.2)
 REST, MS = ([0.0, 0.0, 0.0], [0.0, 9.81, 0.0]), 1_000_000
@@ -12,7 +12,7 @@ REST, MS = ([0.0, 0.0, 0.0], [0.0, 9.81, 0.0]), 1_000_000
 def block(*samples, period_ms=40):
     n = len(samples)
     rate, force = (np.array([s[k] for s in samples]) for k in (0, 1))
-    return ImuBlock(np.arange(n) * period_ms * MS, rate, force, np.zeros(n), np.zeros(n))
+    return inertial_block(np.arange(n) * period_ms * MS, rate, force, np.zeros(n), np.zeros(n))
 
 
 def noise(imu, clipped=False):

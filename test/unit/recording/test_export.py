@@ -15,7 +15,7 @@ from pdr_core.recording import RecordingError, Sensor, Session, open_recording
 from pdr_core.recording.bag_export import namespace, recording_times_ns
 from pdr_core.recording.export import write_recording
 from pdr_core.recording.imu_cdr import cdr_from_imu_block, imu_block_from_cdr
-from pdr_core.records import ImuBlock, Truth, TruthKind, joined
+from pdr_core.records import Truth, TruthKind, inertial_block, joined
 
 COUNT = 60
 OUTPUTS = pytest.mark.parametrize("name", ["out", "out.mcap", "out.csv"])
@@ -59,7 +59,9 @@ def in_memory(samples, truth=None, name="imu"):
 def noise(count, seed=3):
     rng = np.random.default_rng(seed)
     stamps = START_NS + np.arange(count) * STEP_NS
-    return ImuBlock(stamps, rng.normal(size=(count, 3)), rng.normal(size=(count, 3)), np.zeros(count), np.zeros(count))
+    return inertial_block(
+        stamps, rng.normal(size=(count, 3)), rng.normal(size=(count, 3)), np.zeros(count), np.zeros(count)
+    )
 
 
 def ros1_bag(path, compression):

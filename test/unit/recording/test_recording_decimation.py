@@ -20,7 +20,7 @@ from pdr_core.recording.decimation import (
     weights,
 )
 from pdr_core.recording.session import Sensor
-from pdr_core.records import ImuBlock, joined, length, part
+from pdr_core.records import inertial_block, joined, length, part
 
 RATE_HZ, STEP_NS = 200.0, 5_000_000
 RATIOS = (2, 4, 5)
@@ -29,7 +29,7 @@ RATIOS = (2, 4, 5)
 def samples(values, sd=0.0):
     """Return samples whose axes all have these values, (n,)."""
     n, columns = len(values), np.repeat(np.asarray(values, float)[:, None], 3, axis=1)
-    return ImuBlock(np.arange(n) * STEP_NS, columns.copy(), columns.copy(), np.full(n, sd), np.full(n, sd))
+    return inertial_block(np.arange(n) * STEP_NS, columns.copy(), columns.copy(), np.full(n, sd), np.full(n, sd))
 
 
 def noisy(n=400, seed=1):

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from pdr_core.conventions import gravity_mps2, stamp_ns_from_seconds
 from pdr_core.eskf import ZuptFilter
 from pdr_core.params import Params, PlaceParams, SimulationParams, changed
-from pdr_core.records import ImuBlock, StanceBlock, length, part
+from pdr_core.records import StanceBlock, inertial_block, length, part
 from pdr_core.simulation.increments import interval_means
 from pdr_core.simulation.walk import course, simulated_walk
 
@@ -24,7 +24,7 @@ def walked(motion, stamp_ns):
     true = course(SimulationParams(motion=motion, walk_length_m=LENGTH_M[motion])).at(stamp_ns * 1e-9)
     gyro, accel = interval_means(stamp_ns, true.position_m, true.velocity_mps, true.quat_xyzw, G)
     none, zeros = np.zeros(len(stamp_ns)), np.zeros((len(stamp_ns), 3))
-    imu = ImuBlock(stamp_ns, gyro, accel, none, none)
+    imu = inertial_block(stamp_ns, gyro, accel, none, none)
     return StanceBlock(imu, none.astype(bool), none, none + 1.0, none, zeros, none), true
 
 

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from pdr_core.conventions import gravity_mps2
 from pdr_core.parameter import meta
 from pdr_core.params import DetectorParams, PlaceParams, SimulationParams, StanceParams
-from pdr_core.records import ImuBlock, joined, length, part
+from pdr_core.records import ImuBlock, inertial_block, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection, catalogue
 
@@ -61,7 +61,9 @@ def resting(seconds=3.0, rate_hz=200.0, gyro_sd=0.014, accel_sd=0.21):
     rng, n = np.random.default_rng(5), round(seconds * rate_hz)
     stamps = 10**18 + np.arange(n, dtype=np.int64) * round(1e9 / rate_hz)
     force = G * np.array([0.6, 0.0, 0.8]) + accel_sd * rng.standard_normal((n, 3))
-    return ImuBlock(stamps, gyro_sd * rng.standard_normal((n, 3)), force, np.full(n, gyro_sd), np.full(n, accel_sd))
+    return inertial_block(
+        stamps, gyro_sd * rng.standard_normal((n, 3)), force, np.full(n, gyro_sd), np.full(n, accel_sd)
+    )
 
 
 def shaken(seconds=2.0):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pdr_core.records import ImuBlock
+from pdr_core.records import inertial_block
 from pdr_core.stance import (
     acceleration_magnitude,
     acceleration_moving_variance,
@@ -22,7 +22,7 @@ def random_block(seed):
     rng = np.random.default_rng(seed)
     stamps = np.cumsum(rng.integers(1, 9, N)) * MS
     force = rng.standard_normal((N, 3)) * 3.0 + [0, 0, G]
-    return ImuBlock(stamps, rng.standard_normal((N, 3)), force, np.zeros(N), np.zeros(N))
+    return inertial_block(stamps, rng.standard_normal((N, 3)), force, np.zeros(N), np.zeros(N))
 
 
 def norms(rows):

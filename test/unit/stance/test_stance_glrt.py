@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pdr_core.records import ImuBlock
+from pdr_core.records import inertial_block
 from pdr_core.stance.glrt import statistics
 
 G, ACCEL_SD, GYRO_SD, MS = 9.81, 0.1, 0.017, 1_000_000
@@ -12,7 +12,7 @@ def random_block(seed, n=60):
     rng = np.random.default_rng(seed)
     stamps = np.cumsum(rng.integers(1, 9, n)) * MS
     force = rng.standard_normal((n, 3)) * 3.0 + [0, 0, G]
-    return ImuBlock(stamps, rng.standard_normal((n, 3)), force, np.zeros(n), np.zeros(n))
+    return inertial_block(stamps, rng.standard_normal((n, 3)), force, np.zeros(n), np.zeros(n))
 
 
 def restated(imu, i, half_ns):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from pdr_core.params import PlaceParams, StanceParams
-from pdr_core.records import ImuBlock, joined, part
+from pdr_core.records import inertial_block, joined, part
 from pdr_core.stance import StanceDetection
 
 RATE_HZ, BIAS = 200.0, np.array([0.002, -0.001, 0.003])
@@ -15,7 +15,7 @@ def walked(*pieces, noise=0.0, seed=0, start_ns=10**18):
     gyro = np.tile(BIAS, (n, 1)) + noise * np.random.default_rng(seed).standard_normal((n, 3))
     gyro[:, 1] += np.concatenate([np.full(c, rate) for c, (_, rate) in zip(counts, pieces, strict=True)])
     stamps = start_ns + np.arange(n, dtype=np.int64) * round(1e9 / RATE_HZ)
-    imu = ImuBlock(stamps, gyro, np.tile([0.0, 0.0, 9.81], (n, 1)), np.full(n, 0.01), np.full(n, 0.1))
+    imu = inertial_block(stamps, gyro, np.tile([0.0, 0.0, 9.81], (n, 1)), np.full(n, 0.01), np.full(n, 0.1))
     return imu, np.concatenate([[0], np.cumsum(counts)])
 
 
