@@ -84,6 +84,12 @@ class PlaceParams:
 
     latitude_deg: float = parameter(45.0, "latitude", unit="deg", bounds=(-90.0, 90.0))
     height_m: float = parameter(0.0, "height above the ellipsoid", unit="m", bounds=(-500.0, 9000.0))
+    field_norm_tesla: float = parameter(
+        0.0, "strength of the Earth's magnetic field; 0: unknown", unit="T", bounds=(0.0, 1e-4)
+    )
+    field_dip_deg: float = parameter(
+        0.0, "its dip below the horizon; counts where the strength is known", unit="deg", bounds=(-90.0, 90.0)
+    )
 
 
 @dataclass(frozen=True)

@@ -182,6 +182,42 @@ class FilterParams:
         bounds=(1e-4, 1.0),
         source="measured on real walks: 0.004 to 0.021, median 0.008",
     )
+    magnetometer: str = parameter(
+        "auto",
+        "what the field may tell: the gyro bias, by its change in a stance; auto: the heading too, where it is clean",
+        choices=("auto", "change", "off"),
+    )
+    field_offset_sd_tesla: float = parameter(
+        1e-5,
+        "what a turning foot sees change of the field by the magnetometer's offset and by iron near it, a radian",
+        unit="T",
+        bounds=(0.0, 1e-3),
+        source="measured on real walks",
+    )
+    field_gate: float = parameter(
+        12.0,
+        "normalised innovation squared beyond which the change of a field is not believed",
+        bounds=(1.0, 1e9),
+        source="chi-square, 3 degrees of freedom, 99.3 %",
+    )
+    field_norm_tolerance: float = parameter(
+        0.03, "share by which the field's strength may differ from place to place in a clean field", bounds=(0.0, 1.0)
+    )
+    field_dip_tolerance_rad: float = parameter(
+        0.035, "angle by which its dip may differ", unit="rad", bounds=(0.0, 1.6), source="2 deg"
+    )
+    field_azimuth_tolerance_rad: float = parameter(
+        0.1, "angle by which its azimuth may differ", unit="rad", bounds=(0.0, 3.15), source="6 deg"
+    )
+    field_heading_gate: float = parameter(
+        6.6,
+        "normalised innovation squared beyond which the azimuth of a clean field is not believed",
+        bounds=(1.0, 1e9),
+        source="chi-square, 1 degree of freedom, 99 %",
+    )
+    field_heading_sd_rad: float = parameter(
+        0.05, "noise of the direction of a clean field at one place", unit="rad", bounds=(1e-4, 3.15), source="3 deg"
+    )
     heading_feedback: bool = parameter(
         False, "every step waits for its heading observation: set it where a node or stage gives them"
     )

@@ -160,6 +160,14 @@ class FilterMode(Enum):
     COASTING = 2  # across a gap, or without the gyro
 
 
+class FieldUse(Enum):
+    """What the magnetic field tells the filter; the values are those of pdr_msgs/FilterHealth."""
+
+    NONE = 0
+    CHANGE = 1  # the gyro bias, by how the field changes in a stance
+    HEADING = 2  # the heading too: the field is clean
+
+
 @dataclass(frozen=True)
 class FilterHealth:
     """How far the filter can be trusted now."""
@@ -184,6 +192,9 @@ class FilterHealth:
     accel_bias_mps2: Floats  # (3,)
     accel_bias_sd_mps2: Floats  # (3,)
     gravity_mps2: float
+    field_use: FieldUse
+    north_rad: float  # azimuth of the magnetic field in the world frame
+    north_sd_rad: float  # pi: unknown
 
 
 class TruthKind(Enum):

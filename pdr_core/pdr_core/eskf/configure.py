@@ -3,10 +3,13 @@
 import numpy as np
 
 from pdr_core.conventions import gravity_mps2, nanoseconds
+from pdr_core.eskf.field_places import CHANGE, HEADING, NONE
 from pdr_core.eskf.process import ProcessNoise
-from pdr_core.eskf.settings import Settings
+from pdr_core.eskf.settings import FieldSettings, Settings
 from pdr_core.params import FilterParams, PlaceParams
 from pdr_core.strapdown.samples import KINDS
+
+USES = {"off": NONE, "change": CHANGE, "auto": HEADING}
 
 
 def settings(params: FilterParams, place: PlaceParams) -> Settings:
@@ -36,4 +39,16 @@ def settings(params: FilterParams, place: PlaceParams) -> Settings:
         level_ground=p.level_ground,
         floor_limit_m=p.floor_limit_m,
         floor_sd_m=p.floor_sd_m,
+        field=FieldSettings(
+            USES[p.magnetometer],
+            p.field_offset_sd_tesla,
+            p.field_gate,
+            place.field_norm_tesla,
+            float(np.radians(place.field_dip_deg)),
+            p.field_norm_tolerance,
+            p.field_dip_tolerance_rad,
+            p.field_azimuth_tolerance_rad,
+            p.field_heading_sd_rad,
+            p.field_heading_gate,
+        ),
     )

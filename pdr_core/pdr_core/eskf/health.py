@@ -3,10 +3,15 @@
 import numpy as np
 
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
+from pdr_core.eskf.field_heading import known
 from pdr_core.eskf.state import FilterState
-from pdr_core.records import FilterHealth, FilterMode, Level, Notice
+from pdr_core.records import FieldUse, FilterHealth, FilterMode, Level, Notice
 
 LOST_AFTER_S = 5.0  # no step takes so long
+FIELD_USED = {
+    FieldUse.CHANGE: "the magnetic field shows the gyro bias; a compass it is where many places in a row agree",
+    FieldUse.HEADING: "the magnetic field is clean: it shows the gyro bias and the heading",
+}
 
 
 def notices(state: FilterState) -> list[Notice]:
@@ -26,6 +31,11 @@ def notices(state: FilterState) -> list[Notice]:
     if gaps:
         text = "intervals were not navigated: the position was held across them"
         found.append(Notice(Level.WARN, "coasted", text, gaps, start_ns))
+    if state.field_use:
+        found.append(Notice(Level.OK, "field_use", FIELD_USED[FieldUse(int(state.field_use))], 1, start_ns))
+    if state.field_rejected > state.field_windows:
+        text = "most stances contradict the magnetic field: is the magnetometer calibrated (`pdr calibrate mag`)?"
+        found.append(Notice(Level.WARN, "field_contradicts", text, int(state.field_rejected), start_ns))
     return found
 
 
@@ -55,6 +65,9 @@ def judged(state: FilterState, resets: int) -> FilterHealth:
         accel_bias_mps2=state.accel_bias_mps2.copy(),
         accel_bias_sd_mps2=sd[ACCEL_BIAS : ACCEL_BIAS + 3],
         gravity_mps2=float(state.gravity_mps2),
+        field_use=FieldUse(int(state.field_use)),
+        north_rad=float(state.north_rad),
+        north_sd_rad=min(np.pi, float(np.sqrt(state.north_variance))) if known(state) else np.pi,
     )
 
 

@@ -3,15 +3,21 @@
 from typing import NamedTuple
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import floor
+from pdr_core.eskf import field_heading, field_places, floor, quiet_field, rare_bias
 from pdr_core.eskf.align import align
+from pdr_core.eskf.field_updates import stand_in_field
 from pdr_core.eskf.gravity import tilt_is_lost
 from pdr_core.eskf.output import write
-from pdr_core.eskf.process import NO_TIME, Link, carry, cross_gap, link, noise, propagate_covariance
+from pdr_core.eskf.process import NO_TIME, Link, carry, cross_gap, forget_velocity, link, noise, propagate_covariance
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.eskf.step_events import roam, stance_is_over, stand
-from pdr_core.eskf.updates import level, stand_on_floor, zero_rate, zero_velocity
+from pdr_core.eskf.updates import (
+    level,
+    stand_on_floor,
+    zero_rate,
+    zero_velocity,
+)
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, difference, row
 from pdr_core.records import NavBlock, StanceBlock
@@ -33,6 +39,8 @@ class Sample(NamedTuple):
     zero_velocity_sd_mps: float
     rest_rate_radps: Triple
     rest_sd_radps: float
+    field_tesla: Triple
+    field_sd_tesla: float
 
 
 @compiled
@@ -49,6 +57,8 @@ def sample(block: StanceBlock, i: int) -> Sample:
         block.zero_velocity_sd_mps[i],
         row(block.rest_rate_radps, i),
         block.rest_sd_radps[i],
+        row(imu.field_tesla, i),
+        imu.field_sd_tesla[i],
     )
 
 
@@ -78,7 +88,10 @@ def update(now: Sample, s: Settings, state: FilterState) -> None:
         if state.adrift:
             hold(state)
         if now.rest_sd_radps > 0.0:
+            rare_bias.weigh(now.rest_rate_radps, now.rest_sd_radps, s.initial_sd, state)
             zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
+        if s.field.use > field_places.NONE and (state.field_open or now.field_sd_tesla >= 0.0):
+            watch_field(now, s, state)
         roam(state)
         if now.stance:
             stand_still(now, s, state)
@@ -101,6 +114,24 @@ def stand_still(now: Sample, s: Settings, state: FilterState) -> None:
     if zero_velocity(now.stamp_ns, now.rate_radps, sd_mps, s, state):
         stand_on_floor(sd_mps, s, state)
         stand(now.stamp_ns, state)
+
+
+@compiled
+def watch_field(now: Sample, s: Settings, state: FilterState) -> None:
+    """Gather the field while the foot stands quietly, and take what it has told into the estimate thereafter."""
+    rate = difference(now.rate_radps, state.gyro_bias_radps)
+    measured = not gyro_off(now.gyro_sd_radps, state)
+    goes_on = (
+        measured
+        and quiet_field.quiet(now.stance, now.zero_velocity_sd_mps, rate)
+        and quiet_field.continuous(now.stamp_ns, state)
+    )
+    if state.field_open and (not goes_on or quiet_field.full(now.stamp_ns, state)):
+        state.field_open = False
+        if quiet_field.told(state):
+            stand_in_field(quiet_field.shown(state), s.field, state)
+    if goes_on:
+        quiet_field.gather(now.stamp_ns, now.rate_radps, now.field_tesla, now.field_sd_tesla, state)
 
 
 @compiled
@@ -131,6 +162,8 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> Link:
     carry(k, state.cross)
     if floor.known(state):
         carry(k, state.floor_cross)
+    if field_heading.known(state):
+        carry(k, state.north_cross)
     state.accel_bias_mps2[:] *= k.bias_decay
     state.gyro_bias_radps[:] *= k.bias_decay
     return k
@@ -164,6 +197,7 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     cross_gap(state.P, state.cross, dt_s, s.process)
     state.gaps += not state.coasting
     floor.forget(state)
+    forget_velocity(state.north_cross)
     state.coasting = True
 
 

@@ -6,6 +6,21 @@ from pdr_core.eskf.process import ProcessNoise
 from pdr_core.records import Floats
 
 
+class FieldSettings(NamedTuple):
+    """What the filter may take of the magnetic field."""
+
+    use: int  # at most: NONE, CHANGE or HEADING of field_places.py
+    offset_sd_tesla: float
+    gate: float
+    norm_tesla: float  # 0: nobody knows
+    dip_rad: float
+    norm_tolerance: float
+    dip_tolerance_rad: float
+    azimuth_tolerance_rad: float
+    heading_sd_rad: float
+    heading_gate: float
+
+
 class Settings(NamedTuple):
     """Numbers only; times in nanoseconds where they are compared with stamps."""
 
@@ -27,3 +42,4 @@ class Settings(NamedTuple):
     level_ground: bool
     floor_limit_m: float
     floor_sd_m: float
+    field: FieldSettings

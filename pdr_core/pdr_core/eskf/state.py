@@ -8,6 +8,8 @@ import numpy as np
 from pdr_core.conventions import NO_STAMP
 from pdr_core.eskf.error_state import SIZE
 
+PLACES = 12  # that are compared to judge the field
+
 # fmt: off
 ESTIMATE = [
     ("position_m", np.float64, 3),            # world frame
@@ -64,6 +66,36 @@ LEVEL_GROUND = [
     ("floor_ends", np.float64, (1, 6)),       # and of that with the position errors at both stance ends
     ("floor_variance_m2", np.float64),
 ]
+QUIET_FIELD = [                               # the magnetic field in a window of a quiet stance
+    ("field_open", np.bool_),
+    ("field_start_ns", np.int64),
+    ("field_samples", np.int64),
+    ("field_turn_xyzw", np.float64, 4),       # of the foot since then: turns what is now back to what was
+    ("field_time_sums", np.float64, 2),       # of times and of their squares
+    ("field_sum", np.float64, 3),             # of the field, turned back
+    ("field_time_sum", np.float64, 3),        # of time times field
+    ("field_variance_sum", np.float64),
+    ("bias_is_rare", np.bool_),                # beyond what sensors usually bring, and proven
+    ("witness_sd", np.float64),               # of the change of the field in the last window [T/s]; 0: none yet
+    ("witness_tesla", np.float64, 3),         # the field in it
+    ("witness_bias_radps", np.float64, 3),    # the bias that its change speaks for, as far as it shows it
+    ("field_use", np.int64),                  # NONE, CHANGE or HEADING of field_places.py
+    ("field_windows", np.int64),              # that told something
+    ("field_rejected", np.int64),             # that contradicted
+]
+NORTH = [                                     # the places where the foot stood, and the azimuth of the field
+    ("places", np.int64),
+    ("place_m", np.float64, 3),               # the last one
+    ("place_norm_tesla", np.float64, PLACES),
+    ("place_dip_rad", np.float64, PLACES),
+    ("place_azimuth_rad", np.float64, PLACES),
+    ("north_norm_tesla", np.float64),         # strength and dip of the field where north was found
+    ("north_dip_rad", np.float64),
+    ("north_rad", np.float64),                # azimuth of the field in the world frame
+    ("north_variance", np.float64),           # 0: not found yet
+    ("north_cross", np.float64, (SIZE, 1)),   # covariance of the errors with that of north
+    ("north_ends", np.float64, (1, 6)),       # and of that with the position errors at both stance ends
+]
 COUNTS = [                                    # what happened so far, for people to read
     ("samples", np.int64),
     ("accepted", np.int64),                   # zero-velocity updates that agree with the estimate
@@ -74,7 +106,9 @@ COUNTS = [                                    # what happened so far, for people
     ("normalised_innovation", np.float64),    # of the last zero-velocity update
 ]
 # fmt: on
-LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *LEVEL_GROUND, *COUNTS], align=True)
+LAYOUT = np.dtype(
+    [*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *LEVEL_GROUND, *QUIET_FIELD, *NORTH, *COUNTS], align=True
+)
 FilterState = np.record
 
 

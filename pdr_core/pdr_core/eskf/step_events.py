@@ -32,6 +32,7 @@ def stand(stamp_ns: int, state: FilterState) -> None:
             state.cross[i, 3 + j] = state.P[i, POSITION + j]
     for j in range(3):
         state.floor_ends[0, 3 + j] = state.floor_cross[POSITION + j, 0]
+        state.north_ends[0, 3 + j] = state.north_cross[POSITION + j, 0]
 
 
 @compiled
@@ -97,6 +98,7 @@ def begin_next(state: FilterState) -> None:
     state.excursion_m = 0.0
     state.cross[:, :3] = state.cross[:, 3:]
     state.floor_ends[:, :3] = state.floor_ends[:, 3:]
+    state.north_ends[:, :3] = state.north_ends[:, 3:]
     for name in ENDS:
         state[name][0] = state[name][1]
     state.end_ns[1] = NO_STAMP

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import floor, gravity, heading, zaru, zupt
+from pdr_core.eskf import field_heading, floor, gravity, heading, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.eskf.known_yaw import given_yaw
 from pdr_core.eskf.settings import Settings
@@ -32,6 +32,8 @@ def apply(y: Innovation, H: Floats, K: Floats, state: FilterState) -> None:
     correct_cross(state.cross, K, product(H, state.cross))
     if floor.known(state):
         correct_cross(state.floor_cross, K, product(H, state.floor_cross))
+    if field_heading.known(state):
+        correct_cross(state.north_cross, K, product(H, state.north_cross))
     correct(state.P, K, y)
 
 
@@ -45,6 +47,8 @@ def inject(state: FilterState, error: Floats) -> None:
         state.velocity_mps[i] += error[VELOCITY + i]
         state.accel_bias_mps2[i] += error[ACCEL_BIAS + i]
         state.gyro_bias_radps[i] += error[GYRO_BIAS + i]
+    if state.places > 0:
+        state.place_azimuth_rad[:] += error[ATTITUDE + 2]
 
 
 @compiled
@@ -68,7 +72,10 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
         d2 = normalised_squared(given)
     if d2 > s.huber:
         y, given = weighed(residual, sd_mps * np.sqrt(d2 / s.huber), state)
-    apply(y, zupt.H, zupt.without_gyro_bias(gain(given)), state)
+    K = gain(given)
+    if not state.bias_is_rare:
+        zupt.without_gyro_bias(K)
+    apply(y, zupt.H, K, state)
     if agrees:
         state.accepted += 1
         state.last_accepted_ns = stamp_ns
