@@ -16,7 +16,7 @@ def earth_field(azimuth_rad: float) -> Floats:
 
 
 def in_field(walk: SimulatedWalk, world_tesla: Floats, offset_tesla: Floats | None = None, seed: int = 0) -> ImuBlock:
-    """Return the samples of a walk with a field and noise; `world_tesla` (3,) or (n, 3), the offset along the foot's axes."""
+    """Return the samples of a walk in a field (3,) or (n, 3) of the world frame, with an offset in the foot's axes."""
     n = len(walk.imu.stamp_ns)
     felt = Rotation.from_quat(walk.motion.quat_xyzw).inv().apply(np.broadcast_to(world_tesla, (n, 3)))
     felt = felt + NOISE_TESLA * np.random.default_rng(seed).standard_normal((n, 3))
