@@ -12,7 +12,7 @@ from pdr_core.recording.column_map_yaml import column_map_from_file, known_maps
 from pdr_core.recording.session import RecordingError, Sensor, Session
 from pdr_core.recording.table import Clock, Table, positions
 from pdr_core.recording.table_truth import clock_of, load_truth, open_table
-from pdr_core.records import Flags, Floats, ImuBlock, Notice, inertial_block
+from pdr_core.records import Floats, ImuBlock, Notice, inertial_block
 
 FOLDER_MAP = "pdr_columns.yaml"
 COLUMNS_SHOWN = 12
@@ -114,6 +114,6 @@ def _blocks(
 
 def with_field(block: ImuBlock, field_tesla: Floats) -> ImuBlock:
     """Return samples with their field, (n, 3); one that is no number is none."""
-    there: Flags = np.isfinite(field_tesla).all(axis=1)
-    field_sd_tesla = np.where(there, 0.0, -1.0)
-    return block._replace(field_tesla=np.where(there[:, None], field_tesla, 0.0), field_sd_tesla=field_sd_tesla)
+    field_sd_tesla = np.where(np.isfinite(field_tesla).all(axis=1), 0.0, -1.0)
+    field_tesla = np.where(field_sd_tesla[:, None] < 0.0, 0.0, field_tesla)
+    return block._replace(field_tesla=field_tesla, field_sd_tesla=field_sd_tesla)
