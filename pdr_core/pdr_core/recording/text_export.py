@@ -18,7 +18,9 @@ POSITION = ["x_m", "y_m", "z_m"]
 
 def write_text(path: Path, sensor: Sensor) -> list[Path]:
     """Write the files and return them, the samples last. A rate that was not measured is NaN: that loses the sample."""
-    start_ns, magnetic = _write_samples(path, sensor)
+    start_ns, magnetic, whole = _write_samples(path, sensor, magnetic=False)
+    if not whole:
+        start_ns, magnetic, _ = _write_samples(path, sensor, magnetic=True)
     column_map = {"name": "pdr", "time": TIME, "sensors": {sensor.name: _sensor_map(path, sensor.truth, magnetic)}}
     map_file = _write_map(path.with_suffix(".yaml"), column_map)
     beside = truth_file(path, sensor.truth)
@@ -33,17 +35,17 @@ def truth_file(path: Path, truth: Truth | None) -> Path | None:
     return path.with_name(f"{path.stem}_truth.csv") if there else None
 
 
-def _write_samples(path: Path, sensor: Sensor, magnetic: bool = False) -> tuple[int, bool]:
-    """Write the samples; return the first stamp, and whether any of them has a field: only then it has columns.
+def _write_samples(path: Path, sensor: Sensor, magnetic: bool) -> tuple[int, bool, bool]:
+    """Write samples; return the first stamp, whether the field has columns, and whether all samples are written.
 
-    Where the first field comes after the first piece, all is written once more.
+    The field has columns if `magnetic`, or one is in the first piece. Where it has none and one comes, writing ends.
     """
     start_ns = 0
     with path.open("w") as file:
         for n, piece in enumerate(sensor.pieces()):
             if not magnetic and (piece.field_sd_tesla >= 0.0).any():
                 if n > 0:
-                    return _write_samples(path, sensor, magnetic=True)
+                    return start_ns, False, False
                 magnetic = True
             if n == 0:
                 start_ns = int(piece.stamp_ns[0])
@@ -51,7 +53,7 @@ def _write_samples(path: Path, sensor: Sensor, magnetic: bool = False) -> tuple[
             vectors = [_measured(piece.gyro_radps, piece.gyro_sd_radps), piece.accel_mps2]
             field_tesla = [_measured(piece.field_tesla, piece.field_sd_tesla)] if magnetic else []
             _write_rows(file, piece.stamp_ns, np.hstack([*vectors, *field_tesla]))
-    return start_ns, magnetic
+    return start_ns, magnetic, True
 
 
 def _measured(vectors: Floats, deviations: Floats) -> Floats:
