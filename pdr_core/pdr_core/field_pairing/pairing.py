@@ -5,16 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pdr_core.conventions import GAP_NS, NANOSECONDS
-from pdr_core.field_pairing.clock import Clock, UsualInterval, steps_ns, within_reckoning
+from pdr_core.field_pairing.clock import Clock, UsualInterval, within_reckoning
 from pdr_core.field_pairing.fields import NOT_HEARD_NS, Fields, FieldStore, with_fields
 from pdr_core.field_pairing.nearest import NEVER_NS, equal, nearest
+from pdr_core.field_pairing.silence import Silence
 from pdr_core.notices import Tally
-from pdr_core.records import NO_SAMPLES, Flags, Floats, ImuBlock, Level, Notice, Stamps, joined, length, part
+from pdr_core.records import NO_SAMPLES, Flags, Floats, ImuBlock, Notice, Stamps, joined, length, part
 
 JUMP_WAITS = 2  # a step back by more than so many waiting times is a jump of the clock
-SILENCE_NS = NANOSECONDS
-SILENT = "no magnetic field belonged to the samples for more than 1 s; check the magnetometer and its stamps"
 
 
 class Waiting(NamedTuple):
@@ -46,9 +44,7 @@ class FieldPairing:
         self._store = FieldStore(JUMP_WAITS * wait_ns, self._tally)
         self._waiting = NOBODY
         self._decided_ns = NOT_HEARD_NS  # latest sample that was given out
-        self._listened_ns: int | None = None
-        self._seen_ns = NOT_HEARD_NS
-        self._silent = False
+        self._silence = Silence(self._tally)
 
     def take_field(self, stamp_ns: Stamps, field_tesla: Floats, field_sd_tesla: Floats) -> None:
         """Take m measurements, (m,), (m, 3), (m,); a deviation of -1 says that there is none at this stamp."""
@@ -75,6 +71,7 @@ class FieldPairing:
     @property
     def notices(self) -> list[Notice]:
         """Fields that nobody took, clocks that jumped, and silence of a magnetometer."""
+        self._silence.count()
         return self._tally.notices
 
     def _by_clock(self, stamp_ns: Stamps, start: int, stop: int) -> Iterator[tuple[int, int]]:
@@ -90,8 +87,8 @@ class FieldPairing:
 
     def _begin_anew(self, newest_ns: int) -> None:
         self._interval.begin_anew()
-        self._decided_ns = self._seen_ns = NOT_HEARD_NS
-        self._listened_ns = None
+        self._decided_ns = NOT_HEARD_NS
+        self._silence.begin_anew()
         self._store.expect_jump(newest_ns)
 
     def _take(self, imu: ImuBlock, stamp_ns: Stamps) -> None:
@@ -112,15 +109,20 @@ class FieldPairing:
         fields = self._store.between(int(waiting.stamp_ns.min()) - reach_ns, int(waiting.stamp_ns.max()) + reach_ns)
         choice, certain = self._matched(fields, newest_ns, heard_ns)
         count = len(certain) if everything or certain.all() else int(certain.argmin())
-        self._waiting = part(waiting, count)
-        ascending_ns = waiting.stamp_ns[:count][waiting.ascends[:count]]
-        given = with_fields(part(waiting.imu, 0, count), fields, choice[:count])
-        self._listen(waiting.stamp_ns[:count], choice[:count] >= 0)
+        if count == 0:
+            return NO_SAMPLES
+        self._waiting, given = NOBODY, waiting
+        if count < len(certain):
+            self._waiting, given, choice = part(waiting, count), part(waiting, 0, count), choice[:count]
+        ascending_ns = given.stamp_ns[given.ascends]
         if len(ascending_ns):
             self._decided_ns = int(ascending_ns[-1])
+        if self._store.ever:
+            self._silence.note(given.stamp_ns, choice >= 0)
+        samples = with_fields(given.imu, fields, choice)
         if not everything:
             self._store.forget(self._decided_ns - self._wait_ns)
-        return given
+        return samples
 
     def _matched(self, fields: Fields, newest_ns: int, heard_ns: int) -> tuple[Stamps, Flags]:
         """Return which field each sample that waits takes, (n,), -1: none, and whether that is certain, (n,)."""
@@ -145,16 +147,3 @@ class FieldPairing:
             choice[others[index >= 0]] = free[index[index >= 0]]
             certain[others] |= index >= 0
         return choice, certain
-
-    def _listen(self, stamp_ns: Stamps, paired: Flags) -> None:
-        """Count how often samples that are given out, (n,), were without a field for more than a second."""
-        if not len(stamp_ns) or not self._store.ever:
-            return
-        begins = steps_ns(stamp_ns, self._listened_ns) > GAP_NS
-        begins[0] |= self._listened_ns is None
-        marks_ns = np.where(paired | begins, stamp_ns, NOT_HEARD_NS)
-        seen_ns = np.maximum.accumulate(np.maximum(marks_ns, self._seen_ns))
-        silent = stamp_ns - seen_ns > SILENCE_NS
-        falls = silent & ~np.concatenate([[self._silent], silent[:-1]])
-        self._tally.add_flagged("field_silent", Level.WARN, SILENT, falls, stamp_ns)
-        self._listened_ns, self._seen_ns, self._silent = int(stamp_ns[-1]), int(seen_ns[-1]), bool(silent[-1])
