@@ -98,6 +98,8 @@ class FieldStore:
         """Return the fields of the present clock from a stamp to another, and some others; their flags can be set."""
         stop = int(self._fields.clock.searchsorted(self._passed, "right"))
         within = self._fields.newest_ns[:stop]
+        if not stop or within[-1] < first_ns:
+            return NO_FIELDS
         return part(self._fields, int(within.searchsorted(first_ns)), int(within.searchsorted(last_ns, "right")))
 
     def forget(self, before_ns: int) -> None:

@@ -59,7 +59,8 @@ class FieldPairing:
                 given.append(self._given_out(before_ns, everything=True))
                 self._begin_anew(before_ns)
             for first, last in self._by_clock(stamp_ns, start, stop):
-                self._take(part(imu, first, last), stamp_ns[first:last])
+                whole = last - first == len(stamp_ns)
+                self._take(imu if whole else part(imu, first, last), stamp_ns[first:last])
                 before_ns = int(self._clock.newest_ns or 0)
                 given.append(self._given_out(before_ns))
         return joined(given) if len(given) > 1 else [*given, NO_SAMPLES][0]
