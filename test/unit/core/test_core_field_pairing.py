@@ -1,10 +1,13 @@
 """Each sample gets the field nearest to it, whichever stream is ahead, and no sample is lost."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pdr_core.conventions import GAP_NS
 from pdr_core.field_pairing import FieldPairing
 from pdr_core.records import Level, inertial_block, joined, length, part
 
@@ -53,8 +56,12 @@ def arrive(pairing, arrivals):
 
 
 def usual(sample_ns):
-    """Half the usual interval at each sample, for regular samples."""
-    return lambda s: 0 if s == sample_ns[0] else STEP_NS // 2
+    """Half the mean of the last 64 intervals that are no gap, at each of ascending samples."""
+    reach, known = {}, []
+    for before, s in pairwise([sample_ns[0], *sample_ns]):
+        known += [s - before] if 0 < s - before <= GAP_NS else []
+        reach[s] = sum(known[-64:]) // max(len(known[-64:]), 1) // 2
+    return reach.__getitem__
 
 
 def test_fields_of_the_same_stamps_are_given_out_at_once():
@@ -95,6 +102,7 @@ def test_a_field_that_is_no_number_is_none():
 def test_what_a_sample_carries_stays_unless_a_field_is_paired_to_it():
     pairing = FieldPairing(WAIT_NS)
     carried = samples([0, STEP_NS])._replace(field_tesla=np.full((2, 3), 7.0), field_sd_tesla=np.full(2, 0.5))
+    put(pairing, [0], sd=-1.0)
     put(pairing, [STEP_NS])
     out = joined([pairing.run(carried), pairing.finish()])
     assert out.field_tesla[:, 0].tolist() == [7.0, STEP_NS]
@@ -115,6 +123,54 @@ def test_other_rates_pair_with_the_nearest(mag_hz, offset_ns, size):
     assert taken(out) == expected(sample_ns, field_ns, usual(sample_ns))
     assert sum(f is not None for f in taken(out)) >= min(mag_hz, 195) * 1.4
     assert "field_late" not in [n.kind for n in pairing.notices]
+
+
+@given(st.integers(0, 10**6), st.sampled_from([0.2, 0.5, 1.0, 2.0]))
+def test_uneven_samples_pair_as_the_rule_says(seed, fields_per_sample):
+    rng = np.random.default_rng(seed)
+    steps_ns = rng.integers(1, 2 * STEP_NS, 200)
+    steps_ns[[50, 120]] = [GAP_NS + 1, 9 * GAP_NS]
+    steps_ns[130:] *= 3
+    sample_ns = np.cumsum(steps_ns).tolist()
+    field_ns = np.unique(rng.integers(0, sample_ns[-1], int(200 * fields_per_sample)) // 1000 * 1000).tolist()
+    pairing = FieldPairing(WAIT_NS)
+    put(pairing, field_ns)
+    out = joined([pairing.run(samples(sample_ns)), pairing.finish()])
+    assert taken(out) == expected(sample_ns, field_ns, usual(sample_ns))
+
+
+def test_a_field_ahead_waits_for_the_sample_that_may_be_nearer():
+    pairing = FieldPairing(WAIT_NS)
+    put(pairing, [0, STEP_NS, 2 * STEP_NS])
+    assert length(pairing.run(samples([0, STEP_NS, 2 * STEP_NS]))) == 3
+    at_ns = 3 * STEP_NS
+    assert length(pairing.run(samples([at_ns]))) == 0
+    put(pairing, [at_ns + 2_400_000])
+    assert length(pairing.run(samples([]))) == 0
+    assert taken(pairing.run(samples([at_ns + 4_000_000]))) == [None]
+    assert taken(pairing.finish()) == [at_ns + 2_400_000]
+
+
+def test_a_field_behind_waits_for_the_field_that_may_be_nearer():
+    pairing = FieldPairing(WAIT_NS)
+    put(pairing, [0, STEP_NS, 2 * STEP_NS - 1_000_000])
+    assert length(pairing.run(samples([0, STEP_NS, 2 * STEP_NS]))) == 2
+    put(pairing, [2 * STEP_NS + 600_000])
+    assert taken(pairing.run(samples([3 * STEP_NS]))) == [2 * STEP_NS + 600_000]
+
+
+def test_stamps_at_both_ends_of_time_are_not_near():
+    pairing = FieldPairing(WAIT_NS)
+    put(pairing, [-(2**63), -(2**63) + 1])
+    out = [pairing.run(samples([2**63 - 1 - STEP_NS])), pairing.run(samples([2**63 - 1])), pairing.finish()]
+    assert taken(joined(out)) == [None, None]
+
+
+def test_old_samples_do_not_wait_once_the_clock_of_the_field_has_jumped_back():
+    pairing = FieldPairing(WAIT_NS)
+    put(pairing, [10**9, 0])
+    assert length(pairing.run(samples([10**9]))) == 1
+    assert length(pairing.run(samples([10**9 + STEP_NS]))) == 1
 
 
 @settings(max_examples=300)
@@ -251,7 +307,7 @@ def test_fields_of_another_clock_are_told():
 def test_each_silence_of_the_magnetometer_is_told_once_and_a_gap_is_none(size):
     sample_ns = [t * STEP_NS for t in (*range(1000), *range(2000, 3000))]
     pairing = FieldPairing(WAIT_NS)
-    put(pairing, [s for i, s in enumerate(sample_ns) if not (200 < i < 500 or 1200 < i < 1500)])
+    put(pairing, [s for i, s in enumerate(sample_ns) if not (200 < i < 500 or 950 < i < 1100 or 1200 < i < 1500)])
     for i in range(0, 2000, size):
         pairing.run(samples(sample_ns[i : i + size]))
     (notice,) = pairing.notices
