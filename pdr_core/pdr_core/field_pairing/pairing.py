@@ -51,7 +51,12 @@ class FieldPairing:
         self._store.put(stamp_ns, field_tesla, field_sd_tesla)
 
     def run(self, imu: ImuBlock) -> ImuBlock:
-        """Return the samples, of these and those that waited, whose field is decided now, in order."""
+        """Return the samples, of these and those that waited, whose field is decided now, in order.
+
+        A block without samples asks for those that a field which has just come has decided.
+        """
+        if not length(imu):
+            return self._given_out(int(self._clock.newest_ns or 0))
         stamp_ns, given = within_reckoning(imu.stamp_ns), []
         before_ns = self._clock.newest_ns
         for start, stop, jumped in self._clock.runs(stamp_ns):
@@ -63,7 +68,7 @@ class FieldPairing:
                 self._take(imu if whole else part(imu, first, last), stamp_ns[first:last])
                 before_ns = int(self._clock.newest_ns or 0)
                 given.append(self._given_out(before_ns))
-        return joined(given) if len(given) > 1 else [*given, NO_SAMPLES][0]
+        return joined(given) if len(given) > 1 else given[0]
 
     def finish(self) -> ImuBlock:
         """Return those that still wait."""
