@@ -25,6 +25,14 @@ def check(session, name, count, rate_hz):
     return block
 
 
+def check_field(block, everywhere=True):
+    """Check that samples have a field, or none at all, and that it is about as strong as that of the earth."""
+    there = block.field_sd_tesla >= 0.0
+    assert there.all() if everywhere else not there.any()
+    assert np.isfinite(block.field_tesla).all()
+    assert not everywhere or 20e-6 < np.median(np.linalg.norm(block.field_tesla, axis=1)) < 80e-6
+
+
 def test_vicon_trials(recordings):
     trials = sorted((recordings / "pyshoe_vicon").glob("*.mat"))
     assert len(trials) == 28
@@ -46,6 +54,7 @@ def test_vicon_trials(recordings):
 def test_tile_walks(recordings, number):
     session = open_recording(recordings / "tile_walks_marg" / f"SensorConnectData_{number}.csv")
     block = check(session, "imu", TILE_SAMPLES[number], 250.0 if number == 43 else 200.0)
+    check_field(block, everywhere=number != 43)
     assert block.stamp_ns[0] == 0
     truth = session.sensors["imu"].truth
     assert (truth.kind, truth.position_m.shape) == (TruthKind.STRIDES, (TILE_STRIDES[number] + 1, 2))
@@ -64,7 +73,7 @@ def test_ngimu_walk(recordings):
 @pytest.mark.parametrize(("name", "count"), [("straightLine", 9963), ("stairsAndCorridor", 15153)])
 def test_x_imu_walks(recordings, name, count):
     session = open_recording(recordings / "xio_ximu_marg" / f"{name}_CalInertialAndMag.csv")
-    check(session, "imu", count, 256.0)
+    check_field(check(session, "imu", count, 256.0))
     assert session.sensors["imu"].truth is None
 
 

@@ -7,6 +7,7 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 from rosbags.typesys import Stores, get_typestore
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
+MAG = "sensor_msgs/msg/MagneticField"
 IMU, POINT, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PointStamped", "geometry_msgs/msg/PoseStamped"
 START_NS = 1_700_000_000_000_000_001
 STEP_NS = 5_000_003
@@ -32,6 +33,15 @@ def imu_cdr(i: int, frame: str = "foot", gyro_covariance: float = 0.0, little_en
         header(i, frame), quaternion, np.zeros(9), vector(i, 2.0, 3.0), covariance, vector(0.1, 0.2, i), np.zeros(9)
     )
     return bytes(TYPES.serialize_cdr(message, IMU, little_endian=little_endian))
+
+
+def mag_cdr(i: float, variance: float = 0.0, little_endian: bool = True, frame: str = "foot") -> bytes:
+    """A field at, or between, the stamps of samples; its x axis tells which."""
+    covariance = np.array([variance, *[0.0] * 8])
+    time_ns = stamp(0) + round(i * STEP_NS)
+    time = TYPES.types["builtin_interfaces/msg/Time"](time_ns // 10**9, time_ns % 10**9)
+    message = TYPES.types[MAG](TYPES.types["std_msgs/msg/Header"](time, frame), vector(i, 2e-5, -4e-5), covariance)
+    return bytes(TYPES.serialize_cdr(message, MAG, little_endian=little_endian))
 
 
 def point_cdr(i: int) -> bytes:

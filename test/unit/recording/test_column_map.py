@@ -22,6 +22,12 @@ def with_vector(**changes):
     return whole
 
 
+def with_mag(**mag):
+    whole = document()
+    whole["sensors"]["foot"]["mag"] = mag
+    return whole
+
+
 def with_truth(**truth):
     whole = document()
     whole["sensors"]["foot"]["truth"] = truth
@@ -57,6 +63,8 @@ def walk(folder, name="walk.csv"):
             document(sensors={"foot": {"gyro": {}}}),
             "sensors.foot lacks the key 'accel'; allowed are accel, gyro",
         ),
+        (with_mag(columns=["a", "b", "c"], unit="gauss"), "foot.mag.unit is 'gauss'; allowed are G, T, mG, nT, uT"),
+        (with_mag(columns=["a", "b"], unit="G"), r"foot.mag.columns is '\['a', 'b'\]'; it must be a list of 3"),
         (with_vector(unit="rpm"), "sensors.foot.gyro.unit is 'rpm'; allowed are deg/s, rad/s"),
         (with_vector(unit=["g"]), r"sensors.foot.gyro.unit is '\['g'\]'; allowed are deg/s, rad/s"),
         (with_vector(columns=["wx"]), r"gyro.columns is '\['wx'\]'; it must be a list of 3"),

@@ -9,15 +9,17 @@ from rosbags.rosbag1 import Writer as Ros1Writer
 from rosbags.rosbag2 import CompressionMode
 from rosbags.typesys import Stores, get_typestore
 from scipy.io import savemat
-from small_bags import IMU, POINT, START_NS, STEP_NS, imu_cdr, imu_messages, point_cdr, stamp, write_bag
+from small_bags import IMU, MAG, POINT, START_NS, STEP_NS, imu_cdr, imu_messages, mag_cdr, point_cdr, stamp, write_bag
 
 from pdr_core.recording import RecordingError, Sensor, Session, open_recording
 from pdr_core.recording.bag_export import namespace, recording_times_ns
 from pdr_core.recording.export import write_recording
 from pdr_core.recording.imu_cdr import cdr_from_imu_block, imu_block_from_cdr
-from pdr_core.records import Truth, TruthKind, inertial_block, joined
+from pdr_core.recording.mag_cdr import FieldBlock, cdr_from_field_block, field_block_from_cdr
+from pdr_core.records import Truth, TruthKind, inertial_block, joined, part
 
 COUNT = 60
+ROW = np.arange(COUNT)
 OUTPUTS = pytest.mark.parametrize("name", ["out", "out.mcap", "out.csv"])
 ROS1, ROS2 = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.ROS2_JAZZY)
 MAP = """name: mine
@@ -64,6 +66,12 @@ def noise(count, seed=3):
     )
 
 
+def with_field(samples, there, sd=0.0):
+    """Samples of which those that are flagged have a field."""
+    field = np.where(there[:, None], np.random.default_rng(5).normal(0.0, 5e-5, (len(there), 3)), 0.0)
+    return samples._replace(field_tesla=field, field_sd_tesla=np.where(there, sd, -1.0))
+
+
 def ros1_bag(path, compression):
     """Write the small bag as ROS 1 did, headers with `seq` included."""
     writer = Ros1Writer(path)
@@ -73,10 +81,10 @@ def ros1_bag(path, compression):
     with writer:
         connections = {
             t: writer.add_connection(f"/imu/{n}", t, typestore=ROS1)
-            for t, n in ((IMU, "data"), (POINT, "ground_truth"))
+            for t, n in ((IMU, "data"), (MAG, "mag"), (POINT, "ground_truth"))
         }
         for i in range(COUNT):
-            for msgtype, cdr in ((IMU, imu_cdr(i)), (POINT, point_cdr(i))):
+            for msgtype, cdr in ((IMU, imu_cdr(i)), (MAG, mag_cdr(i)), (POINT, point_cdr(i))):
                 message = ROS2.deserialize_cdr(cdr, msgtype)
                 object.__setattr__(message, "header", header(i, message.header.stamp, message.header.frame_id))
                 writer.write(connections[msgtype], stamp(i), ROS1.serialize_ros1(message, msgtype))
@@ -89,6 +97,7 @@ def test_a_ros1_bag(tmp_path, compression, name):
     _, after = converted(ros1_bag(tmp_path / "walk.bag", compression), tmp_path / name)
     assert block(after).stamp_ns.tolist() == [stamp(i) for i in range(COUNT)]
     assert block(after).gyro_radps.tolist() == [[i, 2.0, 3.0] for i in range(COUNT)]
+    assert block(after).field_tesla.tolist() == [[i, 2e-5, -4e-5] for i in range(COUNT)]
     (sensor,) = after.sensors.values()
     assert sensor.truth.position_m.tolist() == [[i, 2.0, 3.0] for i in range(COUNT)]
     assert sensor.truth.stamp_ns.tolist() == [stamp(i) for i in range(COUNT)]
@@ -143,8 +152,41 @@ def test_a_users_columns(tmp_path, suffix, name):
 
 
 @OUTPUTS
+@pytest.mark.parametrize(
+    "there",
+    [np.ones(COUNT, bool), ROW % 9 == 4, ROW >= 40, np.random.default_rng(1).random(COUNT) < 0.5],
+    ids=["always", "slow", "late", "at_random"],
+)
+def test_the_field_of_those_that_have_one(tmp_path, name, there):
+    samples = with_field(noise(COUNT), there)
+    sensor = Sensor("imu", None, lambda _: (part(samples, a, a + 25) for a in range(0, COUNT, 25)))
+    write_recording(in_memory(samples), [sensor], tmp_path / name)
+    after = open_recording(tmp_path / name)
+    for size in (1, 17, 65536):
+        check_same(joined(list(after.sensors["imu"].pieces(size))), samples)
+    assert after.notices == []
+
+
+@OUTPUTS
+def test_without_any_field_nothing_is_written_of_one(tmp_path, name):
+    session = in_memory(noise(COUNT))
+    write_recording(session, list(session.sensors.values()), tmp_path / name)
+    files = [f for f in tmp_path.rglob("*") if f.is_file()]
+    assert files
+    assert not any(word in f.read_bytes() for f in files for word in (b"mag", b"MagneticField"))
+
+
+@pytest.mark.parametrize("name", ["out", "out.mcap"])
+def test_the_noise_of_the_field_stays_in_a_bag(tmp_path, name):
+    sd = np.random.default_rng(6).uniform(1e-9, 1e-6, COUNT)
+    session = in_memory(with_field(noise(COUNT), np.arange(COUNT) % 3 > 0, sd))
+    write_recording(session, list(session.sensors.values()), tmp_path / name)
+    check_same(block(open_recording(tmp_path / name)), block(session))
+
+
+@OUTPUTS
 def test_rows_that_repeat_or_go_back_keep_their_place(tmp_path, name):
-    samples = noise(COUNT)
+    samples = with_field(noise(COUNT), np.ones(COUNT, bool))
     stamps = samples.stamp_ns.copy()
     stamps[10:13] = stamps[10]
     stamps[20:] -= 10**10
@@ -217,6 +259,18 @@ def test_what_is_written_is_what_ros_would_write():
             == (np.eye(3) * samples.accel_sd_mps2[i] ** 2).ravel().tolist()
         )
         assert bytes(ROS2.serialize_cdr(message, IMU)) == cdr
+
+
+def test_the_field_is_written_as_ros_would_write_it():
+    samples = with_field(noise(3), np.array([True, True, False]), np.array([0.0, 2e-7, 0.0]))
+    fields = FieldBlock(samples.stamp_ns, samples.field_tesla, samples.field_sd_tesla)
+    for i, cdr in enumerate(cdr_from_field_block(fields, "a frame")):
+        message = ROS2.deserialize_cdr(cdr, MAG)
+        assert (message.header.frame_id, message.magnetic_field.z) == ("a frame", samples.field_tesla[i, 2])
+        diagonal = message.magnetic_field_covariance[[0, 4, 8]].tolist()
+        assert diagonal == [[0.0] * 3, [2e-7**2] * 3, [-1.0, 0.0, 0.0]][i]
+        assert bytes(ROS2.serialize_cdr(message, MAG)) == cdr
+        check_same(field_block_from_cdr([cdr]), [column[i : i + 1] for column in fields])
 
 
 @OUTPUTS

@@ -190,6 +190,45 @@ def test_a_cut_mat_file_is_an_error(tmp_path):
             open_recording(path)
 
 
+@pytest.mark.parametrize(("unit", "tesla"), [("T", 1.0), ("uT", 1e-6), ("nT", 1e-9), ("G", 1e-4), ("mG", 1e-7)])
+def test_a_field_is_turned_into_tesla(tmp_path, unit, tesla):
+    (tmp_path / "walk.yaml").write_text(OWN % "s" + f"    mag: {{columns: [mx, my, mz], unit: {unit}}}\n")
+    path = write(tmp_path / "walk.csv", "t,s:wx,s:wy,s:wz,ax,ay,az,mz,my,mx", "0,1,2,3,4,5,6,7,8,9")
+    block = samples(open_recording(path))
+    np.testing.assert_allclose(block.field_tesla, [[9 * tesla, 8 * tesla, 7 * tesla]], rtol=1e-15)
+    assert block.field_sd_tesla.tolist() == [0.0]
+    assert block.accel_mps2.tolist() == [[4, 5, 6]]
+
+
+def test_a_row_without_a_field_keeps_its_sample(tmp_path):
+    (tmp_path / "walk.yaml").write_text(OWN % "s" + "    mag: {columns: [mx, my, mz], unit: T}\n")
+    cells = ("1,2,3", ",,", "1,nan,3", "1,2", "1,2,inf", "x,2,3", "4,5,6")
+    rows = [f"{i},1,2,3,4,5,6,{c}" for i, c in enumerate(cells)]
+    session = open_recording(write(tmp_path / "walk.csv", OWN_HEADER.strip() + ",mx,my,mz", *rows))
+    block = samples(session)
+    assert block.field_sd_tesla.tolist() == [0.0, -1.0, -1.0, -1.0, -1.0, -1.0, 0.0]
+    assert block.field_tesla.tolist() == [[1, 2, 3], *[[0, 0, 0]] * 5, [4, 5, 6]]
+    assert np.isfinite(block.gyro_radps).all()
+    assert session.notices == []
+
+
+def test_a_field_that_a_users_map_names_must_be_there(tmp_path):
+    path = own(tmp_path, "0,1,2,3,4,5,6")
+    path.with_suffix(".yaml").write_text(OWN % "s" + "    mag: {columns: [mx, my, mz], unit: T}\n")
+    with pytest.raises(RecordingError, match=r"no columns match 'mx' of .*; correct the map"):
+        open_recording(path)
+
+
+@pytest.mark.parametrize("magnetic", [True, False])
+def test_a_known_format_opens_with_and_without_its_field(tmp_path, magnetic):
+    header = "Packet number," + NGIMU.strip().split(",", 1)[1] + ",Magnetometer X (G),Magnetometer Y (G)"
+    path = write(tmp_path / "w.csv", header + ",Magnetometer Z (G)" * magnetic, "1,0,0,0,0,0,1,0.1,0.2,-0.3")
+    session = open_recording(path)
+    assert session.format == "xio_ximu_marg"
+    assert (samples(session).field_sd_tesla >= 0.0).tolist() == [magnetic]
+    np.testing.assert_allclose(samples(session).field_tesla, [[1e-5 * magnetic, 2e-5 * magnetic, -3e-5 * magnetic]])
+
+
 def tile_walk(tmp_path):
     names = [f"inertial-1.2:scaled{kind}{axis}" for kind in ("Gyro", "Accel") for axis in "XYZ"]
     write(tmp_path / "w1.csv", "Time," + ",".join(names), "0,1,2,3,0,0,1", "0.005,1,2,3,0,0,1")
