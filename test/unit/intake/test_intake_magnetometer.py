@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -88,6 +88,7 @@ def test_the_calibration_comes_before_the_mounting():
         (5e-3, 0.0, "mag_saturated"),
         (4e-5, np.nan, "mag_absurd"),
         (4e-5, np.inf, "mag_absurd"),
+        (4e-5, 1.0, "mag_absurd"),
     ],
 )
 def test_a_bad_field_costs_only_itself_and_is_named(value, sd, kind):
@@ -155,19 +156,20 @@ def stuck(begin, end, n=400, **motion):
 
 def test_a_stuck_magnetometer_is_named_until_it_moves():
     imu = stuck(100, 300)
+    imu.field_tesla[311] = imu.field_tesla[310]
     out, notices = taken(imu)
     notice = only(notices, "mag_stuck")
     assert (notice.level, notice.count) == (Level.WARN, 99)  # after a second: from sample 201 on
     assert notice.text == "the magnetometer shows one value while it turns: left out; restart it, check its wiring"
-    np.testing.assert_array_equal(np.flatnonzero(out.field_sd_tesla < 0.0), np.arange(101, 300))
+    np.testing.assert_array_equal(np.flatnonzero(out.field_sd_tesla < 0.0), [*range(101, 300), 311])
 
 
 @pytest.mark.parametrize(
     ("imu", "why"),
     [
         (stuck(100, 195), "less than a second"),
-        (stuck(100, 390, rate_radps=(0.1, 0.0, 0.1)), "hardly a turn"),
-        (stuck(100, 390, rate_radps=(0.0, 0.0, 0.0)), "at rest"),
+        (stuck(100, 220, rate_radps=(0.35, 0.0, 0.0)), "hardly a turn"),
+        (stuck(100, 390, rate_radps=(0.2, 0.0, 0.2)), "at rest, with a bias"),
     ],
 )
 def test_a_repeated_value_need_not_be_stuck(imu, why):
@@ -206,11 +208,13 @@ def test_the_calibration_counts_before_the_field_is_judged():
 
 
 @given(st.lists(st.integers(0, 400), max_size=12))
+@example(list(range(400)))
 def test_a_stream_gives_the_bits_of_the_whole(cuts):
     imu = stuck(150, 320)
     imu.field_tesla[:150] = imu.field_tesla[np.arange(150) // 4 * 4] * 1e4
     imu.field_sd_tesla[:20] = -1.0
-    imu.field_tesla[:20] = 0.0
+    imu.field_sd_tesla[200:270] = -1.0
+    imu.field_tesla[:20] = imu.field_tesla[200:270] = 0.0
     imu.field_tesla[40, 0], imu.field_tesla[330, 0] = np.nan, 4.9e-3
     intake, edges = Ingestion(IntakeParams()), [0, *sorted(cuts), 400]
     pieces = [intake.run(part(imu, a, b)) for a, b in pairwise(edges)]
