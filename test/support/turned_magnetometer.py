@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pdr_core.maths.magnetic import magnetic_yaw_rad
 from pdr_core.records import Floats, ImuBlock
 
 NORM_TESLA, DIP_RAD = 50e-6, np.deg2rad(60.0)
@@ -36,7 +37,16 @@ def turning(seed, duration_s=60.0, rate_hz=100.0, rate_radps=1.5, axes=(1.0, 1.0
     return t, rate_radps * waves * rests * np.asarray(axes)
 
 
-def turned(iron, seed=0, noise_tesla=0.7e-6, earth=EARTH_FIELD, bias_radps=0.01, **motion):
+def turned(
+    iron,
+    seed=0,
+    noise_tesla=0.7e-6,
+    earth=EARTH_FIELD,
+    bias_radps=0.01,
+    gyro_noise_radps=0.003,
+    accel_noise_mps2=0.05,
+    **motion,
+):
     """A recording: samples, and the true attitude of each, world from sensor."""
     t, rate = turning(seed, **motion)
     rng = np.random.default_rng(seed + 1000)
@@ -48,7 +58,18 @@ def turned(iron, seed=0, noise_tesla=0.7e-6, earth=EARTH_FIELD, bias_radps=0.01,
     n = len(t)
     field = attitude.inv().apply(earth) @ iron.distortion.T + iron.offset_tesla
     field += noise_tesla * rng.standard_normal((n, 3))
-    gyro = rate + bias_radps * np.array([1.0, -0.5, 0.7]) + 0.003 * rng.standard_normal((n, 3))
-    accel = attitude.inv().apply([0.0, 0.0, 9.81]) + 0.05 * rng.standard_normal((n, 3))
+    gyro = rate + bias_radps * np.array([1.0, -0.5, 0.7]) + gyro_noise_radps * rng.standard_normal((n, 3))
+    accel = attitude.inv().apply([0.0, 0.0, 9.81]) + accel_noise_mps2 * rng.standard_normal((n, 3))
     stamps = BEGIN_NS + np.rint(t * 1e9).astype(np.int64)
     return ImuBlock(stamps, gyro, accel, np.zeros(n), np.zeros(n), field, np.zeros(n)), attitude
+
+
+def heading_errors_rad(iron, found, tilts=((0.0, 0.0), (0.3, -0.4), (2.0, 0.5), (-1.0, 0.1))):
+    """Errors, (tilts, 72), of the heading by a calibrated field at the true tilt, all around."""
+    errors = []
+    for roll, pitch in tilts:
+        for yaw in np.linspace(-np.pi, np.pi, 72, endpoint=False):
+            attitude = Rotation.from_euler("xyz", [roll, pitch, yaw])
+            raw = iron.distortion @ attitude.inv().apply(EARTH_FIELD) + iron.offset_tesla
+            errors.append(magnetic_yaw_rad(attitude.as_quat(), found.applied(raw)) - yaw)
+    return ((np.array(errors) + np.pi) % (2.0 * np.pi) - np.pi).reshape(len(tilts), 72)

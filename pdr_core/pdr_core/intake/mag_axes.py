@@ -80,12 +80,12 @@ def paired(imu: ImuBlock, fields: Floats) -> Pairs:
     """Return every field with the one a window later, where the gyro has turned moderately and without a gap."""
     attitude, time_s, run = integrated(imu)
     there = np.flatnonzero(imu.field_sd_tesla >= 0.0)
-    later = np.minimum(np.searchsorted(time_s[there], time_s[there] + WINDOW_S), len(there) - 1)
-    a, b = there, there[later]
+    later = np.searchsorted(time_s[there], time_s[there] + WINDOW_S)
+    a, b = there[later < len(there)], there[later[later < len(there)]]
     turn = (Rotation.from_quat(attitude[a]).inv() * Rotation.from_quat(attitude[b])).as_rotvec()
     angle = np.linalg.norm(turn, axis=1)
     lasted_s = time_s[b] - time_s[a]
-    good = (run[a] == run[b]) & (lasted_s >= WINDOW_S) & (lasted_s < 1.5 * WINDOW_S) & (angle < LARGEST_TURN_RAD)
+    good = (run[a] == run[b]) & (lasted_s < 1.5 * WINDOW_S) & (angle < LARGEST_TURN_RAD)
     stretch = np.divide(np.tan(0.5 * angle), 0.5 * angle, out=np.ones_like(angle), where=angle > 1e-9)
     return Pairs(fields[a][good], fields[b][good], (turn * stretch[:, None])[good], lasted_s[good])
 
@@ -116,9 +116,13 @@ def turned(rotation_rad: Floats) -> Floats:
 def nearest_rotation(matrix: Floats) -> Floats:
     """Return the rotation that is nearest to a matrix (3, 3)."""
     U, _, Vt = np.linalg.svd(matrix)
-    return U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt
+    U[:, 2] *= np.linalg.det(U @ Vt)
+    return U @ Vt
 
 
 def cross_matrices(vectors: Floats) -> Floats:
     """Return [v x], (n, 3, 3), for each row."""
-    return np.cross(vectors[:, None, :], np.eye(3)[None]).transpose(0, 2, 1)
+    out = np.zeros((len(vectors), 3, 3))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        out[:, i, j], out[:, j, i] = -vectors[:, k], vectors[:, k]
+    return out

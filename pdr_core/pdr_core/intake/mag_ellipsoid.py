@@ -11,6 +11,7 @@ from pdr_core.records import Floats
 ROWS, COLUMNS = np.array([0, 1, 2, 1, 0, 0]), np.array([0, 1, 2, 2, 2, 1])
 ROBUST = 3.0  # standard deviations up to which a residual has about its full weight
 MAD = 1.4826  # standard deviation of normal noise over its median magnitude
+MOST_STEPS = 100  # ten are usual
 SMALLEST_SD = 1e-9  # of the size: no noise, only rounding
 
 
@@ -33,12 +34,11 @@ def fitted(field_tesla: Floats) -> Ellipsoid | None:
     middle, size = field_tesla.mean(axis=0), field_tesla.std()
     fields = (field_tesla - middle) / size  # numbers of about 1
     start = algebraic(fields)
-    if start is None:
+    best = geometric(fields, *start) if start else None
+    if best is None:
         return None
-    p, residual, covariance = geometric(fields, *start)
+    p, residual, covariance = best
     shape = symmetric(p[3:])
-    if np.linalg.eigvalsh(shape)[0] <= 0.0:
-        return None
     scale = np.cbrt(np.linalg.det(shape))
     units = np.concatenate([np.full(3, scale), np.full(6, 1.0 / scale)])
     in_units = units[:, None] * covariance * units
@@ -62,10 +62,11 @@ def algebraic(fields: Floats) -> tuple[Floats, Floats] | None:
     return (centre, (axes * np.sqrt(squares)) @ axes.T) if squares.min() > 0.0 else None
 
 
-def geometric(fields: Floats, centre: Floats, shape: Floats) -> tuple[Floats, Floats, Floats]:
+def geometric(fields: Floats, centre: Floats, shape: Floats) -> tuple[Floats, Floats, Floats] | None:
     """Return the ellipsoid at the least distances from fields, (n, 3), those of outliers counting less.
 
     That is centre and six entries of shape, (9,), from those of one nearby; the distances; the covariance, (9, 9).
+    None where there is no such ellipsoid.
     """
 
     def residual(p: Floats) -> Floats:
@@ -73,7 +74,9 @@ def geometric(fields: Floats, centre: Floats, shape: Floats) -> tuple[Floats, Fl
 
     start = np.concatenate([centre, shape[ROWS, COLUMNS]])
     scale = ROBUST * deviation(residual(start))
-    found = least_squares(residual, start, loss="cauchy", f_scale=scale, xtol=1e-12, ftol=1e-12)
+    found = least_squares(residual, start, loss="cauchy", f_scale=scale, xtol=1e-12, max_nfev=MOST_STEPS)
+    if not found.success or np.linalg.eigvalsh(symmetric(found.x[3:]))[0] <= 0.0:
+        return None
     rest = residual(found.x)
     covariance = deviation(rest) ** 2 * repetition(rest) * inverse(found.jac.T @ found.jac)
     return found.x, rest, covariance
