@@ -9,6 +9,7 @@ def command_line() -> None:
 
     from pdr_bringup_scripts.commands import (
         bench,
+        calibrate,
         compare,
         convert,
         demo,
@@ -33,6 +34,7 @@ def command_line() -> None:
         name = module.__name__.rsplit(".", 1)[-1]
         allowed = {"allow_extra_args": True, "ignore_unknown_options": True} if name == "test" else {}
         app.command(name, context_settings=allowed)(getattr(module, name))
+    app.add_typer(calibrate.calibrate, name="calibrate")
     app(prog_name="pdr")
 
 

@@ -13,6 +13,10 @@ from pdr_core.params_detectors import DetectorParams as DetectorParams
 from pdr_core.params_foot import FilterParams as FilterParams
 from pdr_core.params_foot import StanceParams as StanceParams
 
+CALIBRATE = "`pdr calibrate mag`"
+HARD_IRON = "hard iron: what the magnetometer shows without a field"
+SOFT_IRON = "soft iron, scale and axes: calibrated = matrix (measured - offset), row and column"
+
 
 @dataclass(frozen=True)
 class IntakeParams:
@@ -76,19 +80,43 @@ class IntakeParams:
         unit="Hz",
         bounds=(0.0, 4000.0),
     )
+    mag_unit: str = parameter("T", "unit of the incoming magnetic field", choices=("T", "uT", "nT", "G", "mG"))
+    mag_offset_x_tesla: float = parameter(0.0, HARD_IRON, unit="T", bounds=(-0.01, 0.01), source=CALIBRATE)
+    mag_offset_y_tesla: float = parameter(0.0, HARD_IRON, unit="T", bounds=(-0.01, 0.01), source=CALIBRATE)
+    mag_offset_z_tesla: float = parameter(0.0, HARD_IRON, unit="T", bounds=(-0.01, 0.01), source=CALIBRATE)
+    mag_matrix_xx: float = parameter(1.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_xy: float = parameter(0.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_xz: float = parameter(0.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_yx: float = parameter(0.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_yy: float = parameter(1.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_yz: float = parameter(0.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_zx: float = parameter(0.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_zy: float = parameter(0.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_matrix_zz: float = parameter(1.0, SOFT_IRON, bounds=(-10.0, 10.0), source=CALIBRATE)
+    mag_sd_tesla: float = parameter(
+        5e-7, "noise of one sample of the magnetometer", unit="T", bounds=(1e-10, 1e-3), source="measured on real walks"
+    )
+    mag_range_tesla: float = parameter(
+        4.9e-3, "field at which an axis of the magnetometer saturates", unit="T", bounds=(1e-4, 1.0), source="49 G"
+    )
 
 
 @dataclass(frozen=True)
 class PlaceParams:
-    """Where on Earth the walk takes place: it gives gravity."""
+    """Where on Earth the walk takes place: it gives gravity and the Earth's magnetic field."""
 
     latitude_deg: float = parameter(45.0, "latitude", unit="deg", bounds=(-90.0, 90.0))
     height_m: float = parameter(0.0, "height above the ellipsoid", unit="m", bounds=(-500.0, 9000.0))
     field_norm_tesla: float = parameter(
-        0.0, "strength of the Earth's magnetic field; 0: unknown", unit="T", bounds=(0.0, 1e-4)
+        0.0, "strength of the Earth's magnetic field; 0: unknown", unit="T", bounds=(0.0, 1e-4), source=CALIBRATE
     )
     field_dip_deg: float = parameter(
-        0.0, "its dip below the horizon; counts where the strength is known", unit="deg", bounds=(-90.0, 90.0)
+        0.0,
+        "by how much the field points below the horizon; counts where its strength is known",
+        unit="deg",
+        bounds=(-90.0, 90.0),
+        source=CALIBRATE,
+    )
     )
 
 

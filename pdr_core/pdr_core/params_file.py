@@ -15,25 +15,37 @@ HEADER = """\
   ros__parameters:
 """
 
+Mapping = dict[str, dict[str, Any]]
+
 
 def load_params(path: Path) -> Params:
     """Read a parameter file; raises ParameterError with one sentence if it cannot be used."""
+    return params_from_mapping(load_mapping(path))
+
+
+def load_mapping(path: Path) -> Mapping:
+    """Return what stands in a parameter file, {group: {name: value}}, not checked; else raise ParameterError."""
     if not path.exists():
         raise ParameterError(f"{path} does not exist: check the path")
     try:
         content = yaml.safe_load(path.read_text())
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise ParameterError(f"{path}: cannot be read as YAML: {' '.join(str(error).split())}") from error
-    return params_from_mapping(ros_parameters(path, content))
+    return ros_parameters(path, content)
 
 
-def ros_parameters(path: Path, content: Any) -> dict[str, Any]:
+def ros_parameters(path: Path, content: Any) -> Mapping:
     """Return what stands below `ros__parameters` of the node `/**`."""
     node = content.get("/**") if isinstance(content, dict) else None
     parameters = node.get("ros__parameters") if isinstance(node, dict) else None
     if not isinstance(parameters, dict):
         raise ParameterError(f"{path}: must hold groups of parameters below '/**: ros__parameters:', see `pdr params`")
     return parameters
+
+
+def params_text(mapping: Mapping) -> str:
+    """Return the text of a parameter file that says this much and no more."""
+    return yaml.safe_dump({"/**": {"ros__parameters": mapping}}, sort_keys=False)
 
 
 def default_file() -> str:

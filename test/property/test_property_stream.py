@@ -23,7 +23,10 @@ PARAMS = Params()
 
 
 def troubled_walk():
-    """Return a walk with gap, restart, clock set, duplicate, swap, stray, burst, NaN, clipped rates, gyro pauses."""
+    """Return a walk with gap, restart, clock set, duplicate, swap, stray, burst, NaN, clipped rates, gyro pauses.
+
+    Its magnetometer is slow, and absent, saturated, stuck and in gauss at times.
+    """
     sim = simulated_walk(SimulationParams(walk="straight", walk_length_m=4.8, sample_rate_hz=100.0), start_ns=10**18)
     imu = ImuBlock(*(column.copy() for column in sim.imu))
     imu.stamp_ns[450:] += 700_000_000
@@ -41,6 +44,11 @@ def troubled_walk():
     imu.gyro_radps[500:507] = np.outer([2.0, 5.0, 6.0, 6.02, 6.0, 4.5, 2.0], [0.3, 1.0, -0.9])
     imu.gyro_radps[550:570, 2] = -7.0  # a plateau that lasts too long
     imu.gyro_sd_radps[900:930] = -1.0
+    imu.field_tesla[:] = 4e-5 * np.sin(np.arange(length(imu)) // 4)[:, None]
+    imu.field_tesla[:300] *= 1e4
+    imu.field_tesla[320], imu.field_tesla[340, 1], imu.field_tesla[350:600] = 4.9e-3, np.nan, 2e-5
+    imu.field_sd_tesla[50:] = 0.0
+    imu.field_sd_tesla[700:800] = -1.0
     return imu
 
 

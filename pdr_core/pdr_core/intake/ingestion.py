@@ -4,6 +4,7 @@ import numpy as np
 
 from pdr_core.conventions import STANDARD_GRAVITY_MPS2
 from pdr_core.intake.clip_stage import ClipRepair
+from pdr_core.intake.magnetometer import Magnetometer
 from pdr_core.intake.noise import channels, sample_noise
 from pdr_core.intake.plausibility import Plausibility, plausible
 from pdr_core.intake.stamp_policy import StampPolicy
@@ -20,6 +21,8 @@ GYRO_UNITS = {"rad/s": 1.0, "deg/s": np.pi / 180.0}
 class Ingestion:
     """Leaves out what is no number, sees to the stamps, converts units, repairs clipped rates and turns the axes.
 
+    A field that is no measurement costs a sample nothing but this field.
+
     Samples at a rate that may be clipped are held back until it has fallen again: for `latency_s` at most.
     """
 
@@ -34,6 +37,7 @@ class Ingestion:
         self._R_foot_from_sensor = quaternion.matrix(
             quaternion.from_euler(params.mounting_roll_rad, params.mounting_pitch_rad, params.mounting_yaw_rad)
         )
+        self._magnetometer = Magnetometer(params, self._R_foot_from_sensor)
 
     def run(self, raw: ImuBlock) -> ImuBlock:
         """Return what can be used of these samples and of those that waited: in SI units, foot axes, with noise."""
@@ -52,7 +56,7 @@ class Ingestion:
     @property
     def notices(self) -> list[Notice]:
         """What was wrong with the samples so far."""
-        return self._tally.notices + self._stamps.notices
+        return self._tally.notices + self._stamps.notices + self._magnetometer.notices
 
     def _numbers(self, raw: ImuBlock) -> ImuBlock:
         raw = ImuBlock._make(np.ascontiguousarray(column) for column in raw)
@@ -68,7 +72,7 @@ class Ingestion:
         return self._clip_repair.run(si)
 
     def _conditioned(self, si: ImuBlock, clipped: Flags) -> ImuBlock:
-        return self._in_foot_axes(self._with_noise(si, clipped))
+        return self._magnetometer.run(self._in_foot_axes(self._with_noise(si, clipped)))
 
     def _in_si_units(self, block: ImuBlock) -> ImuBlock:
         return block._replace(

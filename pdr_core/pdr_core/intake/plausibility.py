@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS, NO_STAMP, STANDARD_GRAVITY_MPS2
+from pdr_core.conventions import STANDARD_GRAVITY_MPS2
+from pdr_core.intake.first_look import FirstLook
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import within
 from pdr_core.notices import Tally
 from pdr_core.records import Flags, Floats, ImuBlock, Level
 
-FIRST_LOOK_S = 1.0
 IMPOSSIBLE_RATE_RADPS = 60.0  # 3400 deg/s: no foot turns so fast, and hardly any gyro reaches it
 
 ABSURD = 1e6  # no sensor shows so much, in whatever unit, and the square of much more would drown all else
@@ -18,30 +18,21 @@ class Plausibility:
     """Looks at the first second of the accelerometer and at every sample of the gyro."""
 
     def __init__(self) -> None:
-        self._start_ns = NO_STAMP
-        self._norms_mps2: list[float] = []
-        self._judged = False
+        self._first_look = FirstLook()
 
     def watch(self, block: ImuBlock, tally: Tally) -> None:
         """Look at the next samples and tell the tally what is not plausible."""
         too_fast = np.abs(block.gyro_radps).max(axis=1, initial=0.0) > IMPOSSIBLE_RATE_RADPS
         text = "rates of over 60 rad/s: probably deg/s; set intake.gyro_unit, or the unit in the column map, to deg/s"
         tally.add_flagged("gyro_unit", Level.ERROR, text, too_fast, block.stamp_ns)
-        if not self._judged:
+        if not self._first_look.over:
             self._look_at_accel(block, tally)
 
     def _look_at_accel(self, block: ImuBlock, tally: Tally) -> None:
-        if not len(block.stamp_ns):
-            return
-        if self._start_ns == NO_STAMP:
-            self._start_ns = int(block.stamp_ns[0])
-        first_look = block.stamp_ns - self._start_ns < FIRST_LOOK_S * NANOSECONDS
-        self._norms_mps2.extend(np.linalg.norm(block.accel_mps2[first_look], axis=1).tolist())
-        if not first_look.all():
-            self._judged = True
-            text = verdict_on_norm(float(np.median(self._norms_mps2)))
-            if text:
-                tally.add("accel_unit", Level.ERROR, text, self._start_ns)
+        norm_mps2 = self._first_look.typical(block.stamp_ns, np.linalg.norm(block.accel_mps2, axis=1))
+        text = "" if norm_mps2 is None else verdict_on_norm(norm_mps2)
+        if text:
+            tally.add("accel_unit", Level.ERROR, text, self._first_look.start_ns)
 
 
 @compiled
