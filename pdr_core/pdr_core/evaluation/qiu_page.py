@@ -14,7 +14,7 @@ class TitledTable(NamedTuple):
 
     title: str
     heads: tuple[str, ...]
-    rows: list[tuple[str, ...]]
+    rows: Sequence[tuple[str, ...]]
 
 
 class DrawnWalk(NamedTuple):

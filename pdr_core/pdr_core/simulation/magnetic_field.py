@@ -48,7 +48,8 @@ def building_tesla(strength_tesla: float, seed: int, position_m: Floats) -> Floa
     """
     rng = np.random.default_rng([seed, BUILDING])
     azimuth_rad, phase_rad = rng.uniform(0.0, 2.0 * np.pi, (2, MODES))
-    wave_number = 2.0 * np.pi / np.exp(rng.uniform(*np.log(WAVELENGTH_M), MODES))
+    shortest, longest = np.log(WAVELENGTH_M)
+    wave_number = 2.0 * np.pi / np.exp(rng.uniform(shortest, longest, MODES))
     ahead = np.column_stack([np.cos(azimuth_rad), np.sin(azimuth_rad)])
     angle_rad = position_m[:, :2] @ (wave_number[:, None] * ahead).T + phase_rad
     level, upright = np.sin(angle_rad) @ ahead, np.cos(angle_rad).sum(axis=1)
