@@ -146,6 +146,7 @@ class Measured(NamedTuple):
     result: QiuResult
     estimate: CourseTrack
     truth: CourseTrack
+    steps: list[StepEvent]
 
 
 def measured(trial: Trial, method: str = "ESKF", sensor: SensorModel = SENSOR) -> Measured:
@@ -162,7 +163,7 @@ def measured(trial: Trial, method: str = "ESKF", sensor: SensorModel = SENSOR) -
     start_ns = int(walk.imu.stamp_ns[0])
     estimate = course_track(method, nav.stamp_ns, start_ns, nav.position_m, nav.quat_xyzw)
     truth = course_track("Truth", walk.imu.stamp_ns, start_ns, walk.motion.position_m, walk.motion.quat_xyzw)
-    return Measured(compared(trial, method, steps, estimate, truth), estimate, truth)
+    return Measured(compared(trial, method, steps, estimate, truth), estimate, truth, steps)
 
 
 def course_track(name: str, stamp_ns: Stamps, start_ns: int, position_m: Floats, quat_xyzw: Floats) -> CourseTrack:
