@@ -1,5 +1,7 @@
 """`pdr bench`: the suite against its simulator."""
 
+from pathlib import Path
+
 import typer
 
 from pdr_bringup_scripts.options import finite
@@ -7,21 +9,30 @@ from pdr_bringup_scripts.options import finite
 
 def bench(
     stress: bool = typer.Option(False, "--stress", help="instead: seeded walks of every gait with every trouble"),
+    qiu: bool = typer.Option(False, "--qiu", help="instead: Qiu's Tables 3, 4 and 5 and his stairs, with his sensor"),
     seeds: int = typer.Option(None, min=1, help="walks; default: 100 of each consistency campaign, 500 of --stress"),
     length: float = typer.Option(
         None, min=1.2, callback=finite, help="length of the consistency walks [m]; default: 100"
     ),
+    out: Path = typer.Option(None, "--out", "-o", help="with --qiu: folder for a page with pictures, and JSON"),
     json: bool = typer.Option(False, "--json", help="print everything as one JSON object"),
 ) -> None:
     """Measure mechanisation, Gui's Table 1 and the filter's consistency on simulated walks.
 
-    Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`, or `pdr bench --stress`
+    Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`, or `pdr bench --stress`,
+    or `pdr bench --qiu --out qiu`
     """
     from pdr_bringup_scripts.problems import Problem
 
-    if stress and length:
-        raise Problem("the walks of --stress have lengths of their own: leave out --length")
-    if stress:
+    if (stress or qiu) and length:
+        raise Problem("the walks of --stress and --qiu have lengths of their own: leave out --length")
+    if qiu and (stress or seeds):
+        raise Problem("the walks of --qiu are those of the paper: leave out --stress and --seeds")
+    if out and not qiu:
+        raise Problem("only the walks of --qiu have a page: leave out --out")
+    if qiu:
+        run_qiu(out, json)
+    elif stress:
         run_stress(seeds or 500, json)
     else:
         run_figures(seeds or 100, length or 100.0, json)
@@ -39,6 +50,29 @@ def run_stress(seeds: int, json: bool) -> None:
         print(stress_as_json(results))
     else:
         show_stress(results)
+
+
+def run_qiu(out: Path | None, json: bool) -> None:
+    """Walk Qiu's walks, print what came of it, and draw it."""
+    from pdr_bringup_scripts.book import make_folder
+    from pdr_bringup_scripts.qiu_tables import FILES, as_json, show, write_files
+    from pdr_bringup_scripts.terminal import Terminal
+    from pdr_core.bench.qiu_tables import costs, qiu_tables
+
+    if out:
+        make_folder(out)
+    terminal = Terminal()
+    with terminal.progress("Qiu's walks") as tell:
+        walks = qiu_tables(tell)
+    with terminal.progress("What each error of the sensor costs") as tell:
+        cost = costs(tell)
+    if json:
+        print(as_json(walks, cost))
+    else:
+        show(walks, cost)
+    if out:
+        write_files(out, walks, cost)
+        terminal.say(f"Written to {out}: {FILES}")
 
 
 def run_figures(seeds: int, length: float, json: bool) -> None:

@@ -8,10 +8,15 @@ import typer
 def simulate(
     out: Path = typer.Option("simulated_walk", "--out", "-o", help="NAME.csv, NAME.mcap, or a rosbag2 directory"),
     motion: str = typer.Option(None, help="how the foot moves: smooth, or gui, as his paper prints it"),
-    walk: str = typer.Option(None, help="rectangle, straight or still; smooth also: curve, stairs, run or mixed"),
+    walk: str = typer.Option(
+        None,
+        help="rectangle, straight, still; smooth also curve, stairs, run, mixed, qiu_rectangle, track, stair_climb",
+    ),
     length: float = typer.Option(None, min=1.2, help="length of the walk [m]"),
     rate: float = typer.Option(None, help="samples per second [Hz]"),
-    sensor: str = typer.Option(None, help="how good the sensor is: ideal, consumer, gui_table_1 or gui_table_1_deg"),
+    sensor: str = typer.Option(
+        None, help="how good the sensor is: ideal, consumer, gui_table_1, gui_table_1_deg or qiu_table_1"
+    ),
     seed: int = typer.Option(None, help="seed of the noise: the same seed, the same walk"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`; the options come before it"),
     force: bool = typer.Option(False, "--force", help="replace what has that name already"),

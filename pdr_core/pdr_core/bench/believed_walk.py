@@ -14,9 +14,9 @@ from pdr_core.params import FilterParams, Params, PlaceParams, changed
 from pdr_core.records import Floats, ImuBlock, Stamps, inertial_block
 from pdr_core.simulation.courses import gui_rectangle
 from pdr_core.simulation.gui_motion import GuiCourse, Phase
-from pdr_core.simulation.imu_model import SENSOR_MODELS
 from pdr_core.simulation.increments import interval_means
 from pdr_core.simulation.motion import Motion
+from pdr_core.simulation.sensors import SENSOR_MODELS
 
 RATE_HZ = 100.0
 START_S, END_S = 10.0, 3.0  # standing; the first rest gives the gyro bias, and with it the heading of the whole walk
