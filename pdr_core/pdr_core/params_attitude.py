@@ -1,4 +1,4 @@
-"""The parameters of the orientation filter."""
+"""The parameters of the orientation filter and of the track without a filter."""
 
 from dataclasses import dataclass
 
@@ -53,4 +53,23 @@ class AttitudeParams:
         unit="rad",
         bounds=(0.0, 3.15),
         source="5 deg",
+    )
+
+
+@dataclass(frozen=True)
+class DedriftParams:
+    """The track without a filter: the drift of each swing is taken off."""
+
+    drift: str = parameter(
+        "noise",
+        "how the drift has grown within a swing: with the noise of the samples, or steadily as the paper has it",
+        choices=("noise", "steady"),
+        source="Qiu eq. 24-26; measured on real walks: most of it comes with the shock of the heel",
+    )
+    stance_sd_mps: float = parameter(
+        0.05,
+        "a foot stands only where the detector says that it is so still",
+        unit="m/s",
+        bounds=(1e-3, 10.0),
+        source="measured on real walks",
     )

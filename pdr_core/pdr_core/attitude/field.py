@@ -5,9 +5,9 @@ written for; Qiu eq. 1 prints one with three arguments. A rotation t of the esti
 
     t_z - m_z (m_x t_x + m_y t_y) / (m_x^2 + m_y^2),
 
-so a steep field shows the tilt as heading; the innovation knows that. But the field corrects the heading alone: what the
-gain would do to the tilt is left out, for gravity knows better. A field is disturbed, and not used, where it is stronger
-or weaker or steeper than in the first rest.
+so a steep field shows the tilt as heading; the innovation knows that. But the field corrects the heading alone: what
+the gain would do to the tilt is left out, for gravity knows better. A field is disturbed, and not used, where it is
+stronger or weaker or steeper than in the first rest.
 """
 
 import numpy as np

@@ -2,11 +2,11 @@
 
 Eq. 16 subtracts H g from the measured force, but the quaternion is quadratic in h(x) = C(q)' g, so H times the state is
 twice that, and H times g has no meaning. The residual is the force minus h(x). With the real part last, the rows of eq.
-14 read as below; they are the derivatives of the homogeneous form, w^2 + z^2 - x^2 - y^2 for the third, which agree with
-those of any other form where it counts, along the sphere.
+14 read as below; they are the derivatives of the homogeneous form, w^2 + z^2 - x^2 - y^2 for the third, which agree
+with those of any other form where it counts, along the sphere.
 
-What a standing foot shows beside gravity goes on for a while: the noise of one sample is raised by how many samples fall
-into that time, so that a faster sensor is not believed more.
+What a standing foot shows beside gravity goes on for a while: the noise of one sample is raised by how many samples
+fall into that time, so that a faster sensor is not believed more.
 """
 
 import numpy as np

@@ -14,7 +14,7 @@ from pdr_core.conventions import GAP_NS
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.levelling import levelled
 from pdr_core.maths.quaternion import rows
-from pdr_core.maths.vector import Triple, difference, norm, rotated, row
+from pdr_core.maths.vector import Triple, difference, rotated, row
 from pdr_core.records import AttitudeBlock, ImuBlock, StanceBlock
 from pdr_core.strapdown.samples import between
 

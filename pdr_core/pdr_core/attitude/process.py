@@ -1,20 +1,20 @@
 """How the state moves from one sample to the next, and its errors with it (Qiu eq. 7-15).
 
-Two slips. Eq. 7 lacks the factor 1/2 that eq. 11 has; with the real part last, as here and as its rows are laid out, its
-block must be -[w x]: dq/dt = q w / 2, the rate in the foot frame on the right. And eq. 15 carries the covariance with
-the Jacobian A of the continuous dq/dt, which is none of the discrete step: without the identity and the interval it
-would forget all of P within a sample. Over an interval dt in which the foot turns by the vector f = (w - b) dt the step
-is exactly
+Two slips. Eq. 7 lacks the factor 1/2 that eq. 11 has; with the real part last, as here and as its rows are laid out,
+its block must be -[w x]: dq/dt = q w / 2, the rate in the foot frame on the right. And eq. 15 carries the covariance
+with the Jacobian A of the continuous dq/dt, which is none of the discrete step: without the identity and the interval
+it would forget all of P within a sample. Over an interval dt in which the foot turns by the vector f = (w - b) dt the
+step is exactly
 
     q <- q e(f),   e(f) = (f sin(|f|/2) / |f|, cos(|f|/2)),   b <- b,
 
-so the transition is the product with e(f) from the right for the quaternion's errors, and q de/df (-dt) for those of the
-bias, where (x, y, z, w) with n = |f|, s = sin(n/2) / n
+so the transition is the product with e(f) from the right for the quaternion's errors, and q de/df (-dt) for those of
+the bias, where (x, y, z, w) with n = |f|, s = sin(n/2) / n
 
     de/df = (s I + (cos(n/2) / 2 - s) / n^2 f f';  -s/2 f').
 
-For small dt it is I + A dt with A of eq. 13. How the bias changes the coning term of the rate (`samples.between`) is left
-out: dt/6 of a change of the rate, below a thousandth.
+For small dt it is I + A dt with A of eq. 13. How the bias changes the coning term of the rate (`samples.between`) is
+left out: dt/6 of a change of the rate, below a thousandth.
 """
 
 import numpy as np

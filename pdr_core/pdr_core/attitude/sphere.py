@@ -1,8 +1,8 @@
 """Unit quaternions as points of a sphere, on which their errors lie.
 
-A small rotation t [rad] about the world's axes, q_true = Exp(t) q, moves q by G(q) t / 2 with the four by three G below.
-Its columns are of unit length, orthogonal to each other and to q. So an error e of the quaternion is the rotation
-t = 2 G' e, and what of e lies along q is none: the covariance of e must be nil there.
+A small rotation t [rad] about the world's axes, q_true = Exp(t) q, moves q by G(q) t / 2 with the four by three G
+below. Its columns are of unit length, orthogonal to each other and to q. So an error e of the quaternion is the
+rotation t = 2 G' e, and what of e lies along q is none: the covariance of e must be nil there.
 """
 
 import numpy as np
