@@ -210,6 +210,7 @@ class Truth:
     kind: TruthKind
     stamp_ns: Stamps  # (n,) for POSITION, else (0,)
     position_m: Floats  # (n, 3) for POSITION; (strides + 1, 2) for STRIDES; else (0, 3)
+    points_m: Floats | None = None  # (n, points, 3) where POSITION is the mean of several, as heel and toe
 
 
 class Level(Enum):

@@ -31,8 +31,7 @@ class Orientation:
 
 
 class QuaternionFilter(Orientation):
-    """A Kalman filter of quaternion and gyro bias that a standing foot corrects by gravity, and by the field if
-    told."""
+    """A Kalman filter of quaternion and gyro bias; gravity corrects it where the foot stands, and the field if told."""
 
     def run(self, block: StanceBlock) -> AttitudeBlock:
         """Return the orientation at each sample."""

@@ -33,9 +33,9 @@ def weighed(force_mps2: Vector, variance: float, s: Settings, state: AttitudeSta
 def level(force_mps2: Vector, sd_mps2: float, dt_s: float, s: Settings, state: AttitudeState) -> None:
     """Tell the filter where up is: it may be off by `sd_mps2`.
 
-    An innovation beyond the gate is not believed: a shock, or a verdict that is wrong. But where that goes on, it is the
-    estimate that is wrong, by as much as it shows, and about any axis: so nothing locks the filter out. The filter is
-    linear in small errors, and that one is large. So the estimate is first turned by the shortest turn that lays the
+    An innovation beyond the gate is not believed: a shock, or a verdict that is wrong. But where that goes on, it is
+    the estimate that is wrong, by as much as it shows, and about any axis: so nothing locks the filter out. The filter
+    is linear in small errors, and that one is large. So the estimate is first turned by the shortest turn that lays the
     force on the vertical; then the force tells no more than how certain that is.
     """
     variance = gravity.sample_variance(sd_mps2, dt_s, s)
