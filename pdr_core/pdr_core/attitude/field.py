@@ -14,7 +14,9 @@ import numpy as np
 
 from pdr_core.attitude.settings import Settings
 from pdr_core.attitude.sphere import rotation_jacobian, tangents
+from pdr_core.attitude.state import GYRO_BIAS, QUATERNION
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.quaternion import rows
 from pdr_core.maths.vector import Vector, norm, product
 from pdr_core.records import Floats
 
@@ -50,14 +52,20 @@ def jacobian(quat_xyzw: Floats, field: Vector) -> Floats:
 
 @compiled
 def heading_alone(K: Floats, quat_xyzw: Floats) -> Floats:
-    """Return the gain (7, 1) without what it would do to the tilt, in place."""
-    up = tangents(quat_xyzw)[:, 2]
-    about_up = 0.0
-    for i in range(4):
-        about_up += up[i] * K[i, 0]
-    for i in range(4):
-        K[i, 0] = about_up * up[i]
+    """Return the gain (7, 1) for the heading and the gyro bias about the vertical, in place: nothing that tilts."""
+    keep_along(tangents(quat_xyzw)[:, 2], K[QUATERNION:GYRO_BIAS, 0])
+    keep_along(np.array(rows(quat_xyzw)[2]), K[GYRO_BIAS:, 0])
     return K
+
+
+@compiled
+def keep_along(axis: Floats, v: Floats) -> None:
+    """Replace v by its part along an axis of unit length."""
+    along = 0.0
+    for i in range(axis.shape[0]):
+        along += axis[i] * v[i]
+    for i in range(axis.shape[0]):
+        v[i] = along * axis[i]
 
 
 @compiled

@@ -38,18 +38,16 @@ def level(force_mps2: Vector, sd_mps2: float, dt_s: float, s: Settings, state: A
     is linear in small errors, and that one is large. So the estimate is first turned by the shortest turn that lays the
     force on the vertical; then the force tells no more than how certain that is.
     """
-    variance = gravity.sample_variance(sd_mps2, dt_s, s)
-    y = weighed(force_mps2, variance, s, state)
-    if normalised_squared(y) > s.gate:
+    if normalised_squared(weighed(force_mps2, sd_mps2**2, s, state)) > s.gate:
         state.contradicted_s += dt_s
         if state.contradicted_s <= s.release_s:
             return
         about_x, about_y, angle = gravity.off_vertical(state.quat_xyzw, force_mps2)
         spread(np.full(3, angle**2), state)
         gravity.stand_up(from_rotation_vector((about_x, about_y, 0.0)), state)
-        y = weighed(force_mps2, variance, s, state)
         state.doubted += 1
     state.contradicted_s = 0.0
+    y = weighed(force_mps2, gravity.sample_variance(sd_mps2, dt_s, s), s, state)
     apply(y, gain(y), state)
 
 
