@@ -44,6 +44,7 @@ MAY_IMPORT = {
     "pdr_core.simulation": STAGE,
     "pdr_core.evaluation": f"{STAGE} plotly jinja2",
     "pdr_core.bench": f"{STAGE} {ALL_STAGES} pdr_core.pipeline pdr_core.simulation pdr_core.evaluation",
+    "pdr_core.bench.orientations": f"{STAGE} {ALL_STAGES} ahrs",  # the library that ours are compared with
     "pdr_nodes": f"{BASE} {MESSAGES} rclpy {HELPERS}",  # the helpers: neither a stage nor a device
     "pdr_nodes.qos": "rclpy",
     # `run` turns what a user can mend into one sentence, and a recording that cannot be opened is such a thing

@@ -15,7 +15,7 @@ from pdr_core.eskf import ZuptFilter
 from pdr_core.evaluation.mocap_gait import gait_errors, markers, pitch_cycle
 from pdr_core.evaluation.orientation_study import Drift, OrientationStudy
 from pdr_core.evaluation.score import Scorer
-from pdr_core.evaluation.walk_score import walk_score
+from pdr_core.evaluation.walk_score import WalkScore, walk_score
 from pdr_core.evaluation.words import nothing_usable
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
@@ -84,7 +84,7 @@ def by_orientation(quat_xyzw: Floats, judged: StanceBlock, params: Params) -> Tr
     return Tracked(joined([o.nav for o in outputs]), steps, joined([o.track for o in outputs]))
 
 
-def score(walk: Walk, one: Tracked, judged: StanceBlock) -> object:
+def score(walk: Walk, one: Tracked, judged: StanceBlock) -> WalkScore:
     """Return the figures of a track."""
     scorer = Scorer(walk.truth)
     scorer.add(one.nav)

@@ -29,7 +29,7 @@ from pdr_core.records import Floats, StanceBlock, length
 if TYPE_CHECKING:
     from types import ModuleType
 
-MISSING = "this method is in the Python package ahrs, which is missing: pip install ahrs==0.4.0"
+MISSING = "this method comes with the Python package ahrs, which is missing: install it with `pip install ahrs==0.4.0`"
 NO_FIELD = "factored quaternions need a magnetometer, and these samples have no magnetic field: leave this method out"
 
 
