@@ -15,7 +15,7 @@ from pdr_core.attitude.settings import Settings
 from pdr_core.attitude.sphere import tangents
 from pdr_core.attitude.state import GYRO_BIAS, QUATERNION, SIZE, AttitudeState
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import multiply, normalised, rows
+from pdr_core.maths.quaternion import Quaternion, multiply, normalised, rows
 from pdr_core.maths.vector import Vector, norm, product, rotated, scaled
 from pdr_core.records import Floats
 
@@ -73,7 +73,7 @@ def off_vertical(quat_xyzw: Floats, force_mps2: Vector) -> tuple[float, float, f
 
 
 @compiled
-def stand_up(turn: Floats, state: AttitudeState) -> None:
+def stand_up(turn: Quaternion, state: AttitudeState) -> None:
     """Turn the estimate by a quaternion of the world frame; its errors turn with it."""
     before = tangents(state.quat_xyzw)
     state.quat_xyzw[:] = normalised(multiply(turn, state.quat_xyzw))

@@ -73,7 +73,7 @@ def orient_unjudged(imu: ImuBlock, s: Settings, state: AttitudeState, out: Attit
         kept = np.exp(-dt_s / s.motion_memory_s) if s.motion_memory_s > 0.0 else 0.0
         motion_mps2 = gravity.motion_mps2(now.force_mps2, now.rate_radps, s)
         state.motion_mps2 = max(motion_mps2, kept * state.motion_mps2)
-        update(now, np.hypot(s.accel_sd_mps2, state.motion_mps2), dt_s, s, state)
+        update(now, float(np.hypot(s.accel_sd_mps2, state.motion_mps2)), dt_s, s, state)
         write(out, i, s, state)
 
 

@@ -39,8 +39,9 @@ def level(force_mps2: Vector, sd_mps2: float, dt_s: float, s: Settings, state: A
     force on the vertical; then the force tells no more than how certain that is.
     """
     if normalised_squared(weighed(force_mps2, sd_mps2**2, s, state)) > s.gate:
-        state.contradicted_s += dt_s
-        if state.contradicted_s <= s.release_s:
+        contradicted_s = float(state.contradicted_s) + dt_s
+        state.contradicted_s = contradicted_s
+        if contradicted_s <= s.release_s:
             return
         about_x, about_y, angle = gravity.off_vertical(state.quat_xyzw, force_mps2)
         spread(np.full(3, angle**2), state)

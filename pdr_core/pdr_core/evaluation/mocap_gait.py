@@ -137,11 +137,11 @@ def pitch_off_rad(found: Markers, stamp_ns: Stamps, quat_xyzw: Floats, middle_ns
 
 
 def pitch_cycle(found: Markers, stamp_ns: Stamps, orientations: dict[str, Floats]) -> PitchCycle | None:
-    """Return the pitch over the cycle in the middle of the walk; None if it has none."""
+    """Return the pitch over the cycle of the longest stride; None if there is none."""
     middle_ns = middles_ns(true_strides_ns(found))
     if len(middle_ns) < 2:
         return None
-    first = len(middle_ns) // 2 - 1
+    first = int(np.argmax(displaced(found, np.column_stack([middle_ns[:-1], middle_ns[1:]]))[0]))
     within = (stamp_ns >= middle_ns[first]) & (stamp_ns <= middle_ns[first + 1])
     time_s = (stamp_ns[within] - middle_ns[first]) / NANOSECONDS
     estimated = {

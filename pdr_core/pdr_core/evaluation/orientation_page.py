@@ -45,7 +45,7 @@ def pictures(study: OrientationStudy, number: int) -> Iterator[Picture]:
         drawn = orientation_plots.stride_errors(study.gait).to_json()
         yield Picture(f"lengths-{number}", "How far off the strides are", caption, drawn)
     if study.cycle:
-        caption = "One cycle in the middle of the walk, from mid-stance to mid-stance (Qiu figure 13)."
+        caption = "The cycle of the longest stride, from mid-stance to mid-stance (Qiu figure 13)."
         yield Picture(
             f"pitch-{number}", "The pitch of the foot", caption, orientation_plots.pitch(study.cycle).to_json()
         )

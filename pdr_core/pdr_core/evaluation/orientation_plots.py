@@ -1,7 +1,7 @@
 """The pictures that compare methods of orientation: Qiu figures 7, 12 and 13."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.stats import gaussian_kde, norm
@@ -38,7 +38,7 @@ def stride_errors(gait: Mapping[str, GaitErrors]) -> "Figure":
 
 def add_density(fig: "Figure", errors_cm: Floats, row: int) -> None:
     """Draw the errors of one method, (n,), into a row."""
-    place = {"row": row, "col": 1, "showlegend": row == 1}
+    place: dict[str, Any] = {"row": row, "col": 1, "showlegend": row == 1}
     fig.add_histogram(
         x=style.listed(errors_cm), histnorm="probability density", marker_color=style.PALE_BLUE, name="Strides", **place
     )
@@ -60,7 +60,7 @@ def pitch(cycle: PitchCycle) -> "Figure":
     true_deg = np.degrees(cycle.true_rad)
     style.line(fig, "Motion capture", cycle.time_s, true_deg, style.INK, unit="deg", dash="dot", row=1, col=1)
     for i, (method, estimated_rad) in enumerate(cycle.estimated_rad.items()):
-        look = {"unit": "deg", "dash": DASHES[i % len(DASHES)], "legendgroup": method, "col": 1}
+        look: dict[str, Any] = {"unit": "deg", "dash": DASHES[i % len(DASHES)], "legendgroup": method, "col": 1}
         colour, estimated_deg = COLOURS[i % len(COLOURS)], np.degrees(estimated_rad)
         style.line(fig, spoken(method), cycle.time_s, estimated_deg, colour, row=1, **look)
         off_deg = estimated_deg - true_deg
@@ -79,7 +79,7 @@ def velocities(drift: Drift) -> "Figure":
     fig = make_subplots(rows=3, cols=1, shared_xaxes=True, vertical_spacing=0.05)
     style.dress(fig)
     for i, axis in enumerate(AXES):
-        place = {"row": i + 1, "col": 1, "showlegend": i == 0, "unit": "m/s"}
+        place: dict[str, Any] = {"row": i + 1, "col": 1, "showlegend": i == 0, "unit": "m/s"}
         style.line(fig, "Before", drift.time_s, drift.before_mps[:, i], style.ORANGE, dash="dot", **place)
         style.line(fig, "After", drift.time_s, drift.after_mps[:, i], style.BLUE, width=1.2, **place)
         fig.update_yaxes(title_text=f"{axis} [m/s]", row=i + 1, col=1)

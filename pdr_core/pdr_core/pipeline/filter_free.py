@@ -59,8 +59,9 @@ def known_orientation(stamp_ns: Stamps, quat_xyzw: Floats) -> AttitudeBlock:
     return AttitudeBlock(stamp_ns, np.ascontiguousarray(quat_xyzw), np.zeros((n, 3, 3)), np.zeros((n, 3)))
 
 
+NO_NUMBERS = np.zeros(0)
 NONE_JUDGED = StanceBlock(
-    NO_SAMPLES, np.zeros(0, np.bool_), *(np.zeros(0) for _ in range(3)), np.zeros((0, 3)), np.zeros(0)
+    NO_SAMPLES, np.zeros(0, np.bool_), NO_NUMBERS, NO_NUMBERS, NO_NUMBERS, np.zeros((0, 3)), NO_NUMBERS
 )
 NOTHING = Held(NONE_JUDGED, known_orientation(np.zeros(0, np.int64), np.zeros((0, 4))), np.zeros(0, np.bool_))
 

@@ -48,8 +48,9 @@ def believed(block: Accelerations, first: int, i: int, state: DriftState) -> boo
     error, swing_s = drift_mps(block, first, i, state)
     if error <= IMPOSSIBLE_MPS2 * max(swing_s, RELEASE_S):
         return True
-    state.contradicted_s += interval_s(block, first, i, state)
-    return state.contradicted_s > RELEASE_S
+    contradicted_s = float(state.contradicted_s) + interval_s(block, first, i, state)
+    state.contradicted_s = contradicted_s
+    return contradicted_s > RELEASE_S
 
 
 @compiled

@@ -85,8 +85,9 @@ def fresh_state() -> DriftState:
 
 def empty_track(count: int) -> Track:
     """Return room for `count` samples."""
-    vectors, flags = (np.empty((count, 3)) for _ in range(3)), (np.zeros(count, np.bool_) for _ in range(2))
-    return Track(*vectors, np.empty(count), np.empty(count), *flags)
+    position, velocity, free = (np.empty((count, 3)) for _ in range(3))
+    stands, closed = (np.zeros(count, np.bool_) for _ in range(2))
+    return Track(position, velocity, free, np.empty(count), np.empty(count), stands, closed)
 
 
 @compiled
