@@ -17,5 +17,6 @@ setup(
     ],
     python_requires=">=3.10",
     install_requires=["numpy", "scipy", "numba", "PyYAML", "rosbags", "mcap", "plotly", "jinja2"],
+    extras_require={"compare": ["ahrs"]},
     zip_safe=False,
 )

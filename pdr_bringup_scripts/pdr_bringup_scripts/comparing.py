@@ -1,9 +1,10 @@
 """Studies recordings one after the other; one that cannot be read does not stop the others."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Generic, TypeVar
 
 from pdr_bringup_scripts.options import known_name
 from pdr_bringup_scripts.problems import Problem
@@ -22,22 +23,29 @@ from pdr_core.warmup import warm_up
 FILES = "compare.html, compare.csv, compare.json"
 
 
+S = TypeVar("S")
+Seen = Callable[[str], object]
+
+
 @dataclass(frozen=True)
-class Job:
-    """What is compared, and whether figures alone are wanted or pictures too."""
+class DetectorJob:
+    """Which detectors are compared, and whether figures alone are wanted or pictures too."""
 
     params: Params
     detectors: Sequence[str]
     gates: Sequence[str]
     deep: bool
-    columns: Path | None
+
+    def __call__(self, walk: Walk, seen: Seen) -> DetectorStudy:
+        """Study one sensor."""
+        return study(walk, self.params, self.detectors, self.gates, self.deep, seen)
 
 
 @dataclass(frozen=True)
-class Compared:
+class Compared(Generic[S]):
     """What came of it."""
 
-    studies: list[DetectorStudy] = field(default_factory=list)
+    studies: list[S] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)  # one sentence for each recording that is missing
     warnings: list[str] = field(default_factory=list)  # what could not be read of the others
 
@@ -58,14 +66,16 @@ def chosen(text: str, known: Sequence[str], option: str) -> list[str]:
     return list(known) if "all" in names else list(dict.fromkeys(names))
 
 
-def compared(paths: Sequence[Path], job: Job, terminal: Terminal) -> Compared:
+def compared(
+    paths: Sequence[Path], columns: Path | None, job: Callable[[Walk, Seen], S], terminal: Terminal
+) -> Compared[S]:
     """Study every sensor of every recording."""
     warm_up()
-    done = Compared()
+    done: Compared[S] = Compared()
     with terminal.bar("Comparing", len(paths)) as bar:
         for path, name in zip(paths, names(paths), strict=True):
             with noted(path, done.problems):
-                session = open_recording(path, column_map=job.columns)
+                session = open_recording(path, column_map=columns)
                 for sensor in session.sensors.values():
                     with noted(path, done.problems):
                         done.studies.append(studied(walk_of(session, sensor, name), job, bar))
@@ -97,9 +107,9 @@ def walk_of(session: Session, sensor: Sensor, name: str) -> Walk:
     return Walk(own_name, list(sensor.pieces()), sensor.truth)
 
 
-def studied(walk: Walk, job: Job, bar: Bar) -> DetectorStudy:
+def studied(walk: Walk, job: Callable[[Walk, Seen], S], bar: Bar) -> S:
     """Study one sensor."""
-    return study(walk, job.params, job.detectors, job.gates, job.deep, lambda what: bar.show(f"{walk.name}: {what}"))
+    return job(walk, lambda what: bar.show(f"{walk.name}: {what}"))
 
 
 def write_files(out: Path, studies: Sequence[DetectorStudy], terminal: Terminal) -> None:
@@ -110,7 +120,7 @@ def write_files(out: Path, studies: Sequence[DetectorStudy], terminal: Terminal)
     terminal.say(f"Written to {out}: {FILES}")
 
 
-def tell(done: Compared, terminal: Terminal) -> None:
+def tell(done: Compared[S], terminal: Terminal) -> None:
     """Say what could not be read of some recordings; Problem, after all else, if others could not be read at all."""
     for warning in done.warnings:
         terminal.say(warning)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pdr_core.eskf.levelling import levelled
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.levelling import levelled
 from pdr_core.maths.vector import Vector, norm
 
 PLAUSIBLE_GRAVITY = 0.03  # where the specific force of the rest differs by more, gravity is taken from the place

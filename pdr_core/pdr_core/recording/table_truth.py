@@ -8,9 +8,9 @@ import numpy as np
 from pdr_core.recording.column_map import TimeColumn, TruthMap
 from pdr_core.recording.mat_table import open_mat_table
 from pdr_core.recording.session import DEFAULT_PIECE, RecordingError, put_warning
-from pdr_core.recording.table import Clock, Rows, Table, positions
+from pdr_core.recording.table import Clock, Table, positions
 from pdr_core.recording.text_table import open_text_table
-from pdr_core.records import Notice, Truth, TruthKind
+from pdr_core.records import Floats, Notice, Stamps, Truth, TruthKind
 
 NO_STAMPS = np.empty(0, np.int64)
 ROW_COUNT = TimeColumn(None, Decimal(1))
@@ -42,23 +42,24 @@ def load_truth(
 
 def _positions(truth: TruthMap, table: Table, recording: Table, time: TimeColumn, notices: list[Notice]) -> Truth:
     if truth.kind is TruthKind.STRIDES:
-        return Truth(truth.kind, NO_STAMPS, _rows(truth, table, ROW_COUNT, notices).values)
-    rows = _rows(truth, table, truth.time or time, notices)
-    stamps, known = rows.stamp_ns, np.isfinite(rows.values).all(axis=1)
+        return Truth(truth.kind, NO_STAMPS, _points(truth, table, ROW_COUNT, notices)[1].mean(axis=1))
+    stamps, points = _points(truth, table, truth.time or time, notices)
+    known = np.isfinite(points).all(axis=(1, 2))
     if truth.time:
         stamps = stamps - stamps[:1] + _first_stamp_ns(recording, time)
-    return Truth(truth.kind, stamps[known], rows.values[known])
+    several = points[known] if len(truth.points) > 1 else None
+    return Truth(truth.kind, stamps[known], points[known].mean(axis=1), several)
 
 
-def _rows(truth: TruthMap, table: Table, time: TimeColumn, notices: list[Notice]) -> Rows:
-    """Return the mean of the points [m] at the stamps of the table's own clock."""
+def _points(truth: TruthMap, table: Table, time: TimeColumn, notices: list[Notice]) -> tuple[Stamps, Floats]:
+    """Return stamps of the table's own clock, (n,), and the points [m] there, (n, points, axes)."""
     columns = positions(table, [c for point in truth.points for c in point.columns])
     pieces = list(table.pieces(clock_of(table, time), columns, DEFAULT_PIECE, notices))
     if not pieces:
         raise RecordingError("it holds no readable row")
     points = np.concatenate([p.values for p in pieces]).reshape(-1, len(truth.points), len(truth.points[0].columns))
     scale = np.array([point.scale for point in truth.points])
-    return Rows(np.concatenate([p.stamp_ns for p in pieces]), (points * scale).mean(axis=1))
+    return np.concatenate([p.stamp_ns for p in pieces]), points * scale
 
 
 def _first_stamp_ns(recording: Table, time: TimeColumn) -> int:

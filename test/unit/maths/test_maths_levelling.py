@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pdr_core.eskf.levelling import levelled
 from pdr_core.maths import quaternion
+from pdr_core.maths.levelling import levelled
 
 G = 9.81
 
