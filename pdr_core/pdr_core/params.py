@@ -119,7 +119,6 @@ class PlaceParams:
         bounds=(-90.0, 90.0),
         source=CALIBRATE,
     )
-    )
 
 
 @dataclass(frozen=True)
