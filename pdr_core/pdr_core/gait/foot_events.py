@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from pdr_core.gait.samples import Cycle, Samples, stood_from
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.vector import difference, dot, row
+from pdr_core.maths.vector import difference, dot
 
 BRAKED = 0.5  # share of the largest speed below which a heel strikes
 LANDED = 0.25  # below which a standing foot is no false stance amid the swing
@@ -19,35 +19,38 @@ SHORTEST_PATH_M = 0.1  # a shorter step has no line along which its ground rises
 
 
 class Marks(NamedTuple):
-    """Rows of a cycle, and what happens in between."""
+    """What happens in a stride."""
 
-    flat_before: int  # where the foot is stillest in the stance before
+    flat_before: int  # the row where the foot is stillest in the stance before
     flat_after: int
-    toe_off: int
-    heel_strike: int
-    landed: int  # the first row of the stance
+    toe_off_ns: int
+    heel_strike_ns: int
+    standing_ns: int  # how long the stance after it lasts
     clearance_m: float
     seen: bool  # no gap, and the gyro on
 
 
-@compiled
 def marks(cycle: Cycle) -> Marks:
-    """Return the marks of a cycle."""
-    s, first, last = cycle
+    """Return the marks of a stride."""
+    return Marks(*found(*cycle))
+
+
+@compiled
+def found(s: Samples, first: int, last: int) -> tuple[int, int, int, int, int, float, bool]:
+    """Return the marks of the stride from one row to another."""
     fastest = first
     for i in range(first, last + 1):
-        fastest = i if s.speed_mps[i] > s.speed_mps[fastest] else fastest
-    flat_before = stillest(s, first)
-    landed = landing(s, fastest, last)
+        fastest = i if s[i].speed_mps > s[fastest].speed_mps else fastest
+    flat_before, landed = stillest(s, first), landing(s, fastest, last)
     seen = True
     for i in range(flat_before + 1, last + 1):
-        seen = seen and s.seen[i]
-    return Marks(
+        seen = seen and s[i].seen
+    return (
         flat_before,
         stillest(s, last),
-        toe_off(s, flat_before, first, fastest),
-        heel_strike(s, fastest, landed),
-        landed,
+        s[toe_off(s, flat_before, first, fastest)].stamp_ns,
+        s[heel_strike(s, fastest, landed)].stamp_ns,
+        s[last].stamp_ns - s[landed].stamp_ns,
         clearance_m(s, first, last),
         seen,
     )
@@ -57,8 +60,8 @@ def marks(cycle: Cycle) -> Marks:
 def stillest(s: Samples, end: int) -> int:
     """Return the row of the least statistic within the last second of the stance that ends at a row."""
     best = end
-    for i in range(stood_from(s.stamp_ns, s.standing, end), end):
-        best = i if s.standing[i] and s.statistic[i] < s.statistic[best] else best
+    for i in range(stood_from(s, end), end):
+        best = i if s[i].standing and s[i].statistic < s[best].statistic else best
     return best
 
 
@@ -66,7 +69,7 @@ def stillest(s: Samples, end: int) -> int:
 def landing(s: Samples, fastest: int, last: int) -> int:
     """Return the first row after the fastest one at which the foot stands."""
     for i in range(fastest, last):
-        if s.standing[i] and s.speed_mps[i] < LANDED * s.speed_mps[fastest]:
+        if s[i].standing and s[i].speed_mps < LANDED * s[fastest].speed_mps:
             return i
     return last
 
@@ -76,7 +79,7 @@ def toe_off(s: Samples, flat: int, first: int, fastest: int) -> int:
     """Return the row before the fastest one at which the foot is tipped farthest from the flat one."""
     best, least = first, 1.0
     for i in range(first, fastest + 1):
-        cosine = dot(s.up[i], s.up[flat])
+        cosine = dot(s[i].up, s[flat].up)
         if cosine < least:
             best, least = i, cosine
     return best
@@ -86,24 +89,24 @@ def toe_off(s: Samples, flat: int, first: int, fastest: int) -> int:
 def heel_strike(s: Samples, fastest: int, landed: int) -> int:
     """Return the row of the sharpest peak of the force between the braking foot and the standing one."""
     begin = fastest
-    while begin < landed and s.speed_mps[begin] >= BRAKED * s.speed_mps[fastest]:
+    while begin < landed and s[begin].speed_mps >= BRAKED * s[fastest].speed_mps:
         begin += 1
     best = begin
     for i in range(begin, landed + 1):
-        best = i if s.jolt_mps2[i] > s.jolt_mps2[best] else best
-    falls = best > 0 and s.force_mps2[best - 1] > s.force_mps2[best]
+        best = i if s[i].jolt_mps2 > s[best].jolt_mps2 else best
+    falls = best > 0 and s[best - 1].force_mps2 > s[best].force_mps2
     return best - 1 if falls else best
 
 
 @compiled
 def clearance_m(s: Samples, first: int, last: int) -> float:
     """Return the largest height above the line from the place of row `first` to that of row `last`."""
-    start_m = row(s.position_m, first)
-    whole_m = difference(row(s.position_m, last), start_m)
+    start_m = s[first].position_m
+    whole_m = difference(s[last].position_m, start_m)
     path_m2 = max(whole_m[0] ** 2 + whole_m[1] ** 2, SHORTEST_PATH_M**2)
     largest_m = 0.0
     for i in range(first, last + 1):
-        there_m = difference(row(s.position_m, i), start_m)
+        there_m = difference(s[i].position_m, start_m)
         along = (there_m[0] * whole_m[0] + there_m[1] * whole_m[1]) / path_m2
         largest_m = max(largest_m, there_m[2] - min(max(along, 0.0), 1.0) * whole_m[2])
     return largest_m

@@ -7,7 +7,7 @@ its singularity in the mounting. Beyond a right angle, as in crawling, it falls 
 
 import numpy as np
 
-from pdr_core.gait.samples import Cycle
+from pdr_core.gait.samples import Samples
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Vector, dot
 from pdr_core.records import CYCLE_POINTS, Floats
@@ -20,28 +20,27 @@ def pitch_rad(up: Vector, ahead: Vector) -> float:
 
 
 @compiled
-def range_rad(cycle: Cycle, ahead: Vector) -> tuple[float, float]:
-    """Return the largest and the smallest pitch of a stride."""
+def over_stride(s: Samples, first: int, last: int, ahead: Vector) -> tuple[float, float, Floats]:
+    """Return the largest and the smallest pitch from one row to another, and its course, (CYCLE_POINTS,)."""
     highest, lowest = -1.0, 1.0
-    for i in range(cycle.first, cycle.last + 1):
-        height = dot(cycle.samples.up[i], ahead)
+    for i in range(first, last + 1):
+        height = dot(s[i].up, ahead)
         highest, lowest = max(highest, height), min(lowest, height)
-    return -np.arcsin(max(-1.0, lowest)), -np.arcsin(min(1.0, highest))
+    return -np.arcsin(max(-1.0, lowest)), -np.arcsin(min(1.0, highest)), course_rad(s, first, last, ahead)
 
 
 @compiled
-def cycle_rad(cycle: Cycle, ahead: Vector) -> Floats:
-    """Return the pitch at CYCLE_POINTS evenly spaced times from the beginning of a stride to its end, (CYCLE_POINTS,).
+def course_rad(s: Samples, first: int, last: int, ahead: Vector) -> Floats:
+    """Return the pitch at evenly spaced times from one row to another, (CYCLE_POINTS,).
 
-    Between two samples it is interpolated; a stride without samples missing has ascending stamps.
+    Between two samples it is interpolated. The stamps must ascend, as they do in a stride of which all is seen.
     """
-    since_ns = cycle.samples.stamp_ns - cycle.samples.stamp_ns[cycle.first]
-    up, row, out = cycle.samples.up, cycle.first, np.empty(CYCLE_POINTS)
+    i, out = first, np.empty(CYCLE_POINTS)
     for k in range(CYCLE_POINTS):
-        at_ns = since_ns[cycle.last] * k / (CYCLE_POINTS - 1)
-        while row < cycle.last - 1 and since_ns[row + 1] <= at_ns:
-            row += 1
-        share = (at_ns - since_ns[row]) / (since_ns[row + 1] - since_ns[row])
-        before_rad = pitch_rad(up[row], ahead)
-        out[k] = before_rad + share * (pitch_rad(up[row + 1], ahead) - before_rad)
+        after_ns = (s[last].stamp_ns - s[first].stamp_ns) * k / (CYCLE_POINTS - 1)
+        while i < last - 1 and s[i + 1].stamp_ns - s[first].stamp_ns <= after_ns:
+            i += 1
+        share = (after_ns - (s[i].stamp_ns - s[first].stamp_ns)) / (s[i + 1].stamp_ns - s[i].stamp_ns)
+        before_rad = pitch_rad(s[i].up, ahead)
+        out[k] = before_rad + share * (pitch_rad(s[i + 1].up, ahead) - before_rad)
     return out

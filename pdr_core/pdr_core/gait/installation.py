@@ -76,15 +76,15 @@ class Installation:
 
 def walked_stride(cycle: Cycle, marks: Marks) -> WalkedStride | None:
     """Return what a stride tells of the mounting; None where it turns, goes nowhere or has samples missing."""
-    s, rows = cycle.samples, [marks.flat_before, marks.flat_after]
-    moved_m = s.position_m[cycle.last] - s.position_m[cycle.first]
+    flat = cycle.samples[[marks.flat_before, marks.flat_after]]
+    moved_m = cycle.samples["position_m"][cycle.last] - cycle.samples["position_m"][cycle.first]
     length_m = float(np.hypot(moved_m[0], moved_m[1]))
-    turn_rad = abs(turn_about_up_rad(*s.quat_xyzw[rows]))
+    turn_rad = abs(turn_about_up_rad(*flat["quat_xyzw"]))
     if not marks.seen or length_m < SHORTEST_M or turn_rad > STRAIGHT_RAD:
         return None
     level = np.array([moved_m[0], moved_m[1], 0.0]) / length_m
-    ahead = [matrix(quat_xyzw).T @ level for quat_xyzw in s.quat_xyzw[rows]]
-    return WalkedStride(s.up[rows], np.array(ahead))
+    ahead = [matrix(quat_xyzw).T @ level for quat_xyzw in flat["quat_xyzw"]]
+    return WalkedStride(flat["up"], np.array(ahead))
 
 
 def mounting(strides: Sequence[WalkedStride]) -> Mounting:

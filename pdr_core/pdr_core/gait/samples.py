@@ -1,107 +1,150 @@
 """What stride analysis needs of every sample, kept until its stride is complete, in bounded memory."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pdr_core.conventions import GAP_NS
 from pdr_core.maths.compiled import compiled
-from pdr_core.records import NO_SAMPLES, Flags, Floats, ImuBlock, NavBlock, Stamps, StanceBlock, joined, length, part
+from pdr_core.maths.vector import difference, norm, row
+from pdr_core.records import NO_SAMPLES, NOT_NUMBERED, ImuBlock, NavBlock, StanceBlock, StepEvent, length, part
 
 LIMIT = 20_000  # samples of a stride that are kept, half from each end: what is longer is a foot that stands
 FLAT_NS = 1_000_000_000  # of a stance, before its end, in which the foot is looked for at its stillest
 BRIDGED_NS = 200_000_000  # interruptions of a stance up to this belong to it: shorter than any swing
-
-
-class Samples(NamedTuple):
-    """n samples of one foot with their estimates."""
-
-    number: Stamps  # (n,) as the filter counts them
-    stamp_ns: Stamps  # (n,)
-    position_m: Floats  # (n, 3)
-    quat_xyzw: Floats  # (n, 4) world from foot
-    up: Floats  # (n, 3) which way is up, in foot axes
-    speed_mps: Floats  # (n,)
-    force_mps2: Floats  # (n,) magnitude of the specific force
-    jolt_mps2: Floats  # (n,) magnitude of its change since the sample before
-    statistic: Floats  # (n,) of the detector
-    standing: Flags  # (n,)
-    seen: Flags  # (n,) neither a gap before this sample nor a gyro that is off
+SAMPLE = np.dtype(
+    [
+        ("number", np.int64),  # as the filter counts them
+        ("stamp_ns", np.int64),
+        ("position_m", np.float64, (3,)),
+        ("quat_xyzw", np.float64, (4,)),  # world from foot
+        ("up", np.float64, (3,)),  # which way is up, in foot axes
+        ("speed_mps", np.float64),
+        ("force_mps2", np.float64),  # magnitude of the specific force
+        ("jolt_mps2", np.float64),  # magnitude of its change since the sample before
+        ("statistic", np.float64),  # of the detector
+        ("standing", np.bool_),
+        ("seen", np.bool_),  # neither a gap before this sample nor a gyro that is off
+    ],
+    align=True,
+)
+Samples = NDArray[Any]  # (n,) of SAMPLE
 
 
 class Cycle(NamedTuple):
-    """A stride's samples, with the last second of the stance before it."""
+    """A stride among samples, which begin at least FLAT_NS before it where there are any."""
 
     samples: Samples
-    first: int  # the end of that stance
-    last: int  # the end of the next
+    first: int  # row of the end of the stance before
+    last: int  # row of the end of the next
 
 
 class Buffer:
     """Takes the samples as they come and gives out those of each stride in turn."""
 
     def __init__(self) -> None:
-        self._pieces: list[Samples] = []
+        self._room: Samples = np.empty(0, SAMPLE)  # what was written is never written again, so it can be given out
+        self._start, self._stop = 0, 0  # of what is kept
+        self._row = 0  # of the end of the last stride that was taken
         self._count = 0
         self._before = NO_SAMPLES  # the last sample so far
 
     def add(self, judged: StanceBlock, nav: NavBlock) -> None:
         """Take the next samples; both blocks have the same stamps."""
-        if length(nav):
-            before = self._before if self._count else part(judged.imu, 0, 1)
-            self._pieces.append(_samples(judged, nav, self._count, before))
-            self._count += length(nav)
-            self._before = ImuBlock._make(column[-1:].copy() for column in judged.imu)
-
-    def take(self, numbers: tuple[int, int]) -> Cycle:
-        """Return the samples of a stride by the numbers of its ends, and let go of all before its last stance."""
-        self._pieces = [joined(self._pieces)] if len(self._pieces) > 1 else self._pieces
-        (whole,) = self._pieces
-        first, last = (int(i) for i in np.searchsorted(whole.number, numbers))
-        begin = stood_from(whole.stamp_ns, whole.standing, first)
-        self._pieces = [part(whole, stood_from(whole.stamp_ns, whole.standing, last))]
-        return Cycle(part(whole, begin, last + 1), first - begin, last - begin)
-
-    def shorten(self) -> None:
-        """Leave out the middle of a stride that lasts for ever; the gaps in there are remembered."""
-        if sum(length(piece) for piece in self._pieces) <= 2 * LIMIT:
+        if not length(nav):
             return
-        whole = joined(self._pieces)
-        head, tail = part(whole, 0, LIMIT // 2), part(whole, -LIMIT // 2)
-        tail.seen[0] = whole.seen[LIMIT // 2 : -LIMIT // 2 + 1].all()
-        self._pieces = [joined([head, tail])]
+        before = self._before if self._count else part(judged.imu, 0, 1)
+        self._make_room(length(nav))
+        fill(self._room[self._stop :], self._count, before, judged, nav)
+        self._stop += length(nav)
+        self._count += length(nav)
+        self._before = ImuBlock._make(column[-1:].copy() for column in judged.imu)
 
+    def holds(self, step: StepEvent) -> bool:
+        """Return whether the samples of a step are all there."""
+        if step.sample_numbers == NOT_NUMBERED:
+            return self._count > 0 and step.stamp_ns <= self._before.stamp_ns[0]
+        return step.sample_numbers[1] < self._count
 
-def _samples(judged: StanceBlock, nav: NavBlock, first_number: int, before: ImuBlock) -> Samples:
-    """Return what is needed of a block that follows one sample; its first sample has a number."""
-    x, y, z, w = nav.quat_xyzw.T
-    imu = judged.imu
-    step_ns = np.diff(imu.stamp_ns, prepend=before.stamp_ns)
-    return Samples(
-        np.arange(first_number, first_number + length(nav)),
-        imu.stamp_ns,
-        nav.position_m,
-        nav.quat_xyzw,
-        np.column_stack([2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)]),
-        _magnitude(nav.velocity_mps),
-        _magnitude(imu.accel_mps2),
-        _magnitude(np.diff(imu.accel_mps2, axis=0, prepend=before.accel_mps2)),
-        judged.statistic,
-        judged.stance,
-        (step_ns >= 0) & (step_ns <= GAP_NS) & (imu.gyro_sd_radps >= 0.0),
-    )
+    def take(self, step: StepEvent) -> Cycle:
+        """Return the samples of a step; it begins where the one before ended, or later."""
+        if step.sample_numbers == NOT_NUMBERED:
+            first, last = (row_at(self._kept, stamp_ns) for stamp_ns in (step.start_ns, step.stamp_ns))
+        else:
+            first, last = (row_of(self._kept, number) for number in step.sample_numbers)
+        self._row = last
+        return Cycle(self._kept, min(first, last), last)
 
+    def forget(self) -> None:
+        """Let go of all before the stance in which the last stride ended, and of the middle of what lasts for ever."""
+        if self._row:
+            self._start += stood_from(self._kept, self._row)
+            self._row = 0
+        if self._stop - self._start > 2 * LIMIT:
+            self._room = without_middle(self._kept)
+            self._start, self._stop = 0, len(self._room)
 
-def _magnitude(vectors: Floats) -> Floats:
-    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    @property
+    def _kept(self) -> Samples:
+        return self._room[self._start : self._stop]
+
+    def _make_room(self, count: int) -> None:
+        if self._stop + count > len(self._room):
+            kept = self._kept
+            self._start, self._stop = 0, len(kept)
+            self._room = np.empty(2 * len(kept) + count, SAMPLE)
+            self._room[: len(kept)] = kept
 
 
 @compiled
-def stood_from(stamp_ns: Stamps, standing: Flags, end: int) -> int:
+def fill(out: Samples, number: int, before: ImuBlock, judged: StanceBlock, nav: NavBlock) -> None:
+    """Write what is needed of a block; its first sample has a number and follows the one in `before`."""
+    stamp_ns, force_mps2 = before.stamp_ns[0], row(before.accel_mps2, 0)
+    for i in range(len(nav.stamp_ns)):
+        s, x, y, z, w = out[i], nav.quat_xyzw[i, 0], nav.quat_xyzw[i, 1], nav.quat_xyzw[i, 2], nav.quat_xyzw[i, 3]
+        since_ns, now_mps2 = nav.stamp_ns[i] - stamp_ns, row(judged.imu.accel_mps2, i)
+        s.number, s.stamp_ns = number + i, nav.stamp_ns[i]
+        for j in range(3):
+            s.position_m[j] = nav.position_m[i, j]
+        s.quat_xyzw[0], s.quat_xyzw[1], s.quat_xyzw[2], s.quat_xyzw[3] = x, y, z, w
+        s.up[0], s.up[1], s.up[2] = 2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)
+        s.speed_mps, s.force_mps2 = norm(row(nav.velocity_mps, i)), norm(now_mps2)
+        s.jolt_mps2 = norm(difference(now_mps2, force_mps2))
+        s.statistic, s.standing = judged.statistic[i], judged.stance[i]
+        s.seen = 0 <= since_ns <= GAP_NS and judged.imu.gyro_sd_radps[i] >= 0.0
+        stamp_ns, force_mps2 = nav.stamp_ns[i], now_mps2
+
+
+def without_middle(whole: Samples) -> Samples:
+    """Return the first and the last samples; a gap in between is remembered."""
+    kept = np.concatenate([whole[: LIMIT // 2], whole[-LIMIT // 2 :]])
+    kept["seen"][LIMIT // 2] = whole["seen"][LIMIT // 2 : -LIMIT // 2 + 1].all()
+    return kept
+
+
+@compiled
+def row_of(s: Samples, number: int) -> int:
+    """Return the row of a sample; where the middle is missing, of one that comes after it."""
+    at = number - s[0].number
+    return max(0, at if at < len(s) and s[at].number == number else len(s) - 1 - (s[-1].number - number))
+
+
+@compiled
+def row_at(s: Samples, stamp_ns: int) -> int:
+    """Return the first row at or after a stamp, or the last row."""
+    for i in range(len(s)):
+        if s[i].stamp_ns >= stamp_ns:
+            return i
+    return len(s) - 1
+
+
+@compiled
+def stood_from(s: Samples, end: int) -> int:
     """Return the first row of the stance that lasts until row `end`, within the last second of it."""
     begin = end
     for i in range(end - 1, -1, -1):
-        if stamp_ns[i] < stamp_ns[end] - FLAT_NS or stamp_ns[i] < stamp_ns[begin] - BRIDGED_NS:
+        if s[i].stamp_ns < s[end].stamp_ns - FLAT_NS or s[i].stamp_ns < s[begin].stamp_ns - BRIDGED_NS:
             break
-        begin = i if standing[i] else begin
+        begin = i if s[i].standing else begin
     return begin

@@ -4,9 +4,9 @@ The pitch of the foot needs the walking direction in foot axes, which the first 
 `installation`). Strides wait until it is known, but never more than WAITING of them: what is older goes without.
 """
 
+import math
 from collections import deque
-
-import numpy as np
+from collections.abc import Iterator
 
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.gait import foot_events, foot_pitch
@@ -28,39 +28,30 @@ class StrideAnalysis:
     def __init__(self) -> None:
         self._buffer = Buffer()
         self._installation = Installation()
+        self._steps: deque[StepEvent] = deque()  # whose samples are still to come
         self._waiting: deque[tuple[StepEvent, Cycle, Marks]] = deque()
         self._heading_rad: float | None = None
         self._tally = Tally()
         self.mounting: Mounting | None = None
-
-    @property
-    def _ahead(self) -> Floats | None:
-        """The walking direction in foot axes, (3,)."""
-        return matrix(self.mounting.quat_xyzw)[0] if self.mounting else None
+        self._ahead: Floats | None = None  # the walking direction in foot axes, (3,)
 
     def run(self, judged: StanceBlock, nav: NavBlock, steps: list[StepEvent]) -> list[Stride]:
-        """Take the next samples, and the steps that are known with them; return the strides that are."""
+        """Take the next samples and steps; return the strides that are known with them."""
         self._buffer.add(judged, nav)
-        strides = []
-        for step in steps:
-            cycle = self._buffer.take(step.sample_numbers)
-            marks = foot_events.marks(cycle)
-            if self.mounting is None:
-                self._installation.add(cycle, marks)
-                self.mounting = self._installation.found()
-            self._waiting.append((step, cycle, marks))
-            while self._waiting and (self.mounting or len(self._waiting) > WAITING):
-                strides.append(self._stride(*self._waiting.popleft()))
-        self._buffer.shorten()
+        self._steps += steps
+        strides: list[Stride] = []
+        while self._steps and self._buffer.holds(self._steps[0]):
+            strides += self._next()
+        self._buffer.forget()
         return strides
 
     def finish(self) -> list[Stride]:
         """Return the strides that still wait for the mounting, with what the strides so far tell of it."""
         if self.mounting is None and self._waiting:
-            self.mounting = self._installation.found(FEWEST)
+            self._mount(self._installation.found(FEWEST))
         if self.mounting is None and self._waiting:
             text = f"the pitch of the foot is not known: {self._installation.doubt(FEWEST)}"
-            self._tally.add("no_mounting", Level.OK, text, 0)
+            self._tally.add("no_mounting", Level.OK, text, self._waiting[0][0].stamp_ns)
         strides = [self._stride(*waiting) for waiting in self._waiting]
         self._waiting.clear()
         return strides
@@ -70,26 +61,40 @@ class StrideAnalysis:
         """What could not be told."""
         return self._tally.notices
 
+    def _next(self) -> Iterator[Stride]:
+        """Take the next step and yield the strides that need not wait any longer."""
+        step = self._steps.popleft()
+        cycle = self._buffer.take(step)
+        marks = foot_events.marks(cycle)
+        if self.mounting is None:
+            self._installation.add(cycle, marks)
+            self._mount(self._installation.found())
+        self._waiting.append((step, cycle, marks))
+        while self._waiting and (self.mounting or len(self._waiting) > WAITING):
+            yield self._stride(*self._waiting.popleft())
+
+    def _mount(self, mounting: Mounting | None) -> None:
+        self.mounting, self._ahead = mounting, matrix(mounting.quat_xyzw)[0] if mounting else None
+
     def _stride(self, step: StepEvent, cycle: Cycle, marks: Marks) -> Stride:
-        s = cycle.samples
-        whole_ns = step.stamp_ns - step.start_ns
-        paused = whole_ns <= 0 or s.stamp_ns[cycle.last] - s.stamp_ns[marks.landed] > PAUSE_NS
-        swing_ns = s.stamp_ns[marks.heel_strike] - s.stamp_ns[marks.toe_off] if marks.seen else 0
-        swung, timed = marks.seen and swing_ns > 0, not paused
-        largest_rad, smallest_rad = self._pitch_range(cycle) if marks.seen else (None, None)
+        quat_xyzw = cycle.samples["quat_xyzw"]
+        whole_ns, swing_ns = step.stamp_ns - step.start_ns, marks.heel_strike_ns - marks.toe_off_ns
+        timed = whole_ns > 0 and marks.standing_ns <= PAUSE_NS
+        swung = marks.seen and swing_ns > 0
+        pitch = foot_pitch.over_stride(*cycle, self._ahead) if marks.seen and self._ahead is not None else None
         return Stride(
             step,
             duration_s=whole_ns / NANOSECONDS if timed else None,
-            stance_s=float(whole_ns - swing_ns) / NANOSECONDS if timed and swung else None,
-            swing_s=float(swing_ns) / NANOSECONDS if swung else None,
+            stance_s=(whole_ns - swing_ns) / NANOSECONDS if timed and swung else None,
+            swing_s=swing_ns / NANOSECONDS if swung else None,
             clearance_m=marks.clearance_m if marks.seen else None,
-            turn_rad=turn_about_up_rad(s.quat_xyzw[marks.flat_before], s.quat_xyzw[marks.flat_after]),
+            turn_rad=turn_about_up_rad(quat_xyzw[marks.flat_before], quat_xyzw[marks.flat_after]),
             heading_change_rad=self._heading_change_rad(step),
-            toe_off_ns=int(s.stamp_ns[marks.toe_off]) if swung else None,
-            heel_strike_ns=int(s.stamp_ns[marks.heel_strike]) if swung else None,
-            pitch_max_rad=largest_rad,
-            pitch_min_rad=smallest_rad,
-            pitch_cycle_rad=self._pitch_cycle(cycle) if marks.seen and timed else None,
+            toe_off_ns=marks.toe_off_ns if swung else None,
+            heel_strike_ns=marks.heel_strike_ns if swung else None,
+            pitch_max_rad=pitch[0] if pitch else None,
+            pitch_min_rad=pitch[1] if pitch else None,
+            pitch_cycle_rad=pitch[2] if pitch and timed else None,
         )
 
     def _heading_change_rad(self, step: StepEvent) -> float | None:
@@ -99,10 +104,4 @@ class StrideAnalysis:
             self._heading_rad = step.heading_rad
         if before_rad is None or self._heading_rad is None:
             return None
-        return float(np.remainder(self._heading_rad - before_rad + np.pi, 2.0 * np.pi) - np.pi)
-
-    def _pitch_range(self, cycle: Cycle) -> tuple[float, float] | tuple[None, None]:
-        return foot_pitch.range_rad(cycle, self._ahead) if self._ahead is not None else (None, None)
-
-    def _pitch_cycle(self, cycle: Cycle) -> Floats | None:
-        return foot_pitch.cycle_rad(cycle, self._ahead) if self._ahead is not None else None
+        return math.remainder(self._heading_rad - before_rad, math.tau)
