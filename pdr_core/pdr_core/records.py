@@ -139,7 +139,7 @@ class Mounting:
     strides: int  # that tell it
 
 
-CYCLE_POINTS = 101  # a stride in percent, both ends included
+CYCLE_POINTS = 101  # of a stride, one a percent of its duration, both ends included
 
 
 @dataclass(frozen=True)

@@ -53,15 +53,15 @@ def _add_densities(fig: "Figure", length_m: Floats, sd_m: float) -> None:
 
 def pitch(strides: Sequence[Stride]) -> "Figure":
     """Return the pitch of the foot over the cycle: strides faint, their mean bold (Qiu figure 13)."""
-    known_deg = np.rad2deg([stride.pitch_cycle_rad for stride in strides if stride.pitch_cycle_rad is not None])
+    known_deg = np.degrees([stride.pitch_cycle_rad for stride in strides if stride.pitch_cycle_rad is not None])
     every = max(1, math.ceil(len(known_deg) / CURVES))
     shown_deg = np.column_stack([known_deg[::every], np.full(len(known_deg[::every]), np.nan)])
-    percent = np.linspace(0.0, 100.0, CYCLE_POINTS)
+    percent = np.arange(CYCLE_POINTS, dtype=np.float64)
     fig = style.figure("Share of the stride [%]", "Foot pitch [°]")
     look = {"mode": "lines", "line": {"color": FAINT, "width": 1}, "hoverinfo": "skip"}
     x = np.tile(np.append(percent, np.nan), len(shown_deg))
     fig.add_scatter(x=style.listed(x), y=style.listed(shown_deg.ravel(), 3), name="Strides", **look)
-    mean_deg = np.mean(known_deg, axis=0, dtype=np.float64)
+    mean_deg: Floats = known_deg.mean(axis=0)
     style.line(fig, "Mean", percent, mean_deg, style.ORANGE, unit="°", width=3)
     return fig
 

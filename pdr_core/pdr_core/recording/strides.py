@@ -6,38 +6,17 @@ from pathlib import Path
 from pdr_core.recording.stamps import text_from_stamp_ns
 from pdr_core.records import Floats, StepEvent, Stride
 
-COLUMNS = [
-    "stride",
-    "t_s",
-    "x_m",
-    "y_m",
-    "z_m",
-    "length_m",
-    "heading_rad",
-    "start_s",
-    "dx_m",
-    "dy_m",
-    "dz_m",
-    "duration_s",
-    "cadence_per_min",
-    "speed_mps",
-    "stance_s",
-    "swing_s",
-    "clearance_m",
-    "turn_rad",
-    "heading_change_rad",
-    "toe_off_s",
-    "heel_strike_s",
-    "pitch_max_rad",
-    "pitch_min_rad",
-]
+FIRST = ["stride", "t_s", "x_m", "y_m", "z_m", "length_m", "heading_rad"]
+GAIT = ["start_s", "dx_m", "dy_m", "dz_m", "duration_s", "cadence_per_min", "speed_mps", "stance_s", "swing_s"]
+GAIT += ["clearance_m", "turn_rad", "heading_change_rad", "toe_off_s", "heel_strike_s"]
+GAIT += ["pitch_max_rad", "pitch_min_rad"]
 Cell = float | str | None  # None: unknown, an empty cell
 
 
 def write_strides(path: Path, strides: Sequence[Stride]) -> None:
     """Write one row a stride after a row 0 for where the walk starts; only the header if there are no strides."""
     with path.open("w") as file:
-        file.write(",".join(COLUMNS) + "\n")
+        file.write(",".join([*FIRST, *GAIT]) + "\n")
         if strides:
             file.write(_start(strides[0].step))
         file.writelines(_row(stride) for stride in strides)
@@ -45,7 +24,7 @@ def write_strides(path: Path, strides: Sequence[Stride]) -> None:
 
 def _start(step: StepEvent) -> str:
     position_m = step.position_m - step.displacement_m
-    return _line(0, step.start_ns, position_m, [0.0, 0.0, *[None] * (len(COLUMNS) - 7)])
+    return _line(0, step.start_ns, position_m, [0.0, 0.0, *[None] * len(GAIT)])
 
 
 def _row(stride: Stride) -> str:
