@@ -43,7 +43,7 @@ def _add_densities(fig: "Figure", length_m: Floats, sd_m: float) -> None:
     """Add the kernel density and the normal distribution of the same mean and deviation."""
     from scipy.stats import gaussian_kde  # takes half a second to load
 
-    grid_m = np.linspace(length_m.min() - 2.0 * sd_m, length_m.max() + 2.0 * sd_m, 200)
+    grid_m = np.linspace(max(0.0, length_m.min() - 2.0 * sd_m), length_m.max() + 2.0 * sd_m, 200)
     mean_m = length_m.mean()
     normal = np.exp(-0.5 * ((grid_m - mean_m) / sd_m) ** 2) / (sd_m * math.sqrt(2.0 * math.pi))
     style.line(fig, "Kernel density", grid_m, gaussian_kde(length_m)(grid_m), style.BLUE, unit="")

@@ -28,6 +28,7 @@ REMEMBERED = 40  # strides, the last ones
 SPREAD_RAD = 0.26  # 15 deg: strides that differ by more do not agree
 AGREEING = 0.75  # share of the strides that must
 SURE_RAD = 0.05  # standard deviation of the walking direction
+BIAS_TILT_RAD = 0.005  # a bias of the accelerometer tilts every stride alike: 0.05 m/s^2, as of consumer sensors
 OUTLIER = 4.4  # times the median distance: 3 sigma of a direction with equal errors either way
 
 
@@ -97,7 +98,8 @@ def mounting(strides: Sequence[WalkedStride]) -> Mounting:
     R_body_from_foot = np.array([np.cross(y, z), y, z])
     root = np.sqrt(len(strides))
     quat_xyzw = Rotation.from_matrix(R_body_from_foot).as_quat()
-    return Mounting(quat_xyzw, up.spread_rad / root, ahead.spread_rad / root, len(strides))
+    tilt_sd_rad = float(np.hypot(up.spread_rad / root, BIAS_TILT_RAD))
+    return Mounting(quat_xyzw, tilt_sd_rad, float(ahead.spread_rad / root), len(strides))
 
 
 def direction(vectors: Floats) -> Direction:

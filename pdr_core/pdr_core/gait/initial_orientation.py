@@ -1,0 +1,55 @@
+"""Orientation at a short rest, before and after the alignment (Qiu eq. 1 and 2, table 2 and figure 3)."""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pdr_core.maths.magnetic import level_field
+from pdr_core.maths.quaternion import from_euler, matrix, multiply
+from pdr_core.records import Floats, Mounting
+
+
+def rest_orientation(accel_mps2: Floats, yaw_rad: float = 0.0) -> Floats:
+    """Return world from sensor, (4,), of a resting sensor with its mean specific force, (3,): Qiu eq. 1-2.
+
+    Roll and pitch are those of gravity; the yaw is given, by a magnetometer or by the track.
+    """
+    x, y, z = accel_mps2
+    return np.array(from_euler(np.arctan2(y, z), np.arctan2(-x, np.hypot(y, z)), yaw_rad))
+
+
+def walking_yaw_rad(mounting: Mounting, accel_mps2: Floats, field_tesla: Floats) -> float:
+    """Return the yaw of the walking direction, counter-clockwise from magnetic east, at a rest.
+
+    Specific force and field, (3,), are their means at the rest in foot axes. See maths.magnetic for Qiu's eq. 1.
+    """
+    R_body_from_foot = matrix(mounting.quat_xyzw)
+    x, y, _ = level_field(R_body_from_foot @ accel_mps2, R_body_from_foot @ field_tesla)
+    return float(np.arctan2(x, y))
+
+
+def walking_frame(quat_xyzw: Floats, heading_rad: float) -> Floats:
+    """Return orientations, (n, 4) world from foot, in a world whose x points along a heading; w is not negative."""
+    turn = from_euler(0.0, 0.0, -heading_rad)
+    turned = np.array([multiply(turn, q) for q in quat_xyzw]).reshape(-1, 4)
+    return np.where(turned[:, 3:] < 0.0, -turned, turned)
+
+
+def aligned(quat_xyzw: Floats, mounting: Mounting) -> Floats:
+    """Return the orientations of the body, (n, 4), from those of the foot, (n, 4): q R_trans'; w is not negative.
+
+    At a rest with the walking direction ahead each is (0, 0, 0, 1), which Qiu writes (1, 0, 0, 0).
+    """
+    body = (Rotation.from_quat(quat_xyzw) * Rotation.from_quat(mounting.quat_xyzw).inv()).as_quat()
+    return np.where(body[:, 3:] < 0.0, -body, body)
+
+
+def euler_rad(R: Floats) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw about the fixed axes x, y, z of a rotation matrix, (3, 3): Qiu eq. 2 solved.
+
+    With x vertical only roll and yaw together are determined: the roll is then taken as zero.
+    """
+    cos_pitch = float(np.hypot(R[2, 1], R[2, 2]))
+    pitch = float(np.arctan2(-R[2, 0], cos_pitch))
+    if cos_pitch < 1e-9:
+        return 0.0, pitch, float(np.arctan2(-R[0, 1], R[1, 1]))
+    return float(np.arctan2(R[2, 1], R[2, 2])), pitch, float(np.arctan2(R[1, 0], R[0, 0]))
