@@ -13,6 +13,7 @@ from pdr_core.records import CYCLE_POINTS, Floats, Stride
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
+POINTS = 3_000  # of one line
 CURVES = 80  # of single strides in one figure
 MOST_BARS = 60
 FAINT = "rgba(0, 114, 178, 0.16)"
@@ -34,7 +35,9 @@ def lengths(strides: Sequence[Stride]) -> "Figure":
 
 
 def _edges(values: Floats) -> Floats:
-    """Return the edges of the bars, more than one."""
+    """Return the edges of at least one bar and not too many."""
+    if np.ptp(values) <= SHORTEST_SD:
+        return np.array([-0.05, 0.05]) + values[0]
     edges = np.histogram_bin_edges(values, "auto")
     return edges if len(edges) <= MOST_BARS + 1 else np.linspace(edges[0], edges[-1], MOST_BARS + 1)
 
@@ -72,11 +75,12 @@ def climb(strides: Sequence[Stride]) -> "Figure":
 
     fig = make_subplots(rows=2, cols=1, shared_xaxes=True, vertical_spacing=0.08)
     style.dress(fig)
-    walked_m = np.cumsum([stride.step.length_m for stride in strides])
-    height_m = np.array([stride.step.position_m[2] for stride in strides])
-    clearance_m = np.array([math.nan if s.clearance_m is None else s.clearance_m for s in strides])
-    style.line(fig, "Height of the foot", walked_m, height_m, style.BLUE, row=1, col=1)
-    style.line(fig, "Clearance", walked_m, clearance_m, style.GREEN, row=2, col=1)
+    rows = _thinned(len(strides))
+    walked_m = np.cumsum([stride.step.length_m for stride in strides])[rows]
+    height_m = np.array([stride.step.position_m[2] for stride in strides])[rows]
+    clearance_m = np.array([math.nan if s.clearance_m is None else s.clearance_m for s in strides])[rows]
+    style.line(fig, "Height of the foot", walked_m, height_m, style.BLUE, row=1, col=1, digits=5)
+    style.line(fig, "Clearance", walked_m, clearance_m, style.GREEN, row=2, col=1, digits=3)
     fig.update_traces(mode="lines+markers", marker={"size": 5})
     fig.update_yaxes(title_text="Height [m]", row=1, col=1)
     fig.update_yaxes(title_text="Clearance [m]", rangemode="tozero", row=2, col=1)
@@ -90,8 +94,9 @@ def heading(strides: Sequence[Stride], trace: Trace) -> "Figure":
     foot_deg = np.rad2deg(np.cumsum([stride.turn_rad or 0.0 for stride in strides]))
     walk_deg = np.rad2deg(np.cumsum([stride.heading_change_rad or 0.0 for stride in strides]))
     fig = style.figure(style.TIME, "Turned [°]")
-    style.line(fig, "Direction of the strides", time_s, walk_deg, style.ORANGE, unit="°", dash="dot")
-    style.line(fig, "Foot", time_s, foot_deg, style.BLUE, unit="°")
+    rows = _thinned(len(strides))
+    style.line(fig, "Direction of the strides", time_s[rows], walk_deg[rows], style.ORANGE, unit="°", dash="dot")
+    style.line(fig, "Foot", time_s[rows], foot_deg[rows], style.BLUE, unit="°")
     if np.ptp(foot_deg) > 180.0:
         fig.update_yaxes(dtick=90)
     return fig
@@ -100,9 +105,14 @@ def heading(strides: Sequence[Stride], trace: Trace) -> "Figure":
 def velocity(trace: Trace) -> "Figure":
     """Return the velocity of the foot in the world frame (Qiu figure 10)."""
     points = trace.points
-    rows = slice(None, None, max(1, math.ceil(2 * len(points.time_s) / style.POINTS)))
+    rows = _thinned(len(points.time_s))
     time_s, velocity_mps = points.time_s[rows], points.velocity_mps[rows]
     fig = style.figure(style.TIME, "Velocity [m/s]")
     for axis, colour in enumerate((style.BLUE, style.ORANGE, style.GREEN)):
         style.line(fig, "xyz"[axis], time_s, velocity_mps[:, axis], colour, unit="m/s", width=1.2, digits=3)
     return fig
+
+
+def _thinned(count: int) -> slice:
+    """Return which of so many points are drawn."""
+    return slice(None, None, max(1, math.ceil(count / POINTS)))

@@ -90,7 +90,7 @@ class SensorsResult:
 
 
 def in_words(result: Result | SensorsResult) -> str:
-    """Return one to four plain sentences; one line for each of several sensors."""
+    """Return one to five plain sentences; one line for each of several sensors."""
     if isinstance(result, SensorsResult):
         return "\n".join(f"{name}: {in_words(one)}" for name, one in result.sensors.items())
     if not result.strides:
