@@ -8,6 +8,8 @@ import math
 from collections import deque
 from collections.abc import Iterator
 
+import numpy as np
+
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.gait import foot_events, foot_pitch
 from pdr_core.gait.foot_events import Marks
@@ -15,7 +17,7 @@ from pdr_core.gait.installation import FEWEST, Installation
 from pdr_core.gait.samples import Buffer, Cycle
 from pdr_core.maths.quaternion import matrix, turn_about_up_rad
 from pdr_core.notices import Tally
-from pdr_core.records import Floats, Level, Mounting, NavBlock, Notice, StanceBlock, StepEvent, Stride
+from pdr_core.records import Level, Mounting, NavBlock, Notice, StanceBlock, StepEvent, Stride
 
 WAITING = 40  # strides
 PAUSE_NS = 2_000_000_000  # a foot that stands for longer makes a pause: nobody knows when its stride was over
@@ -33,7 +35,7 @@ class StrideAnalysis:
         self._heading_rad: float | None = None
         self._tally = Tally()
         self.mounting: Mounting | None = None
-        self._ahead: Floats | None = None  # the walking direction in foot axes, (3,)
+        self._ahead = np.zeros(3)  # the walking direction in foot axes, once the mounting is known
 
     def run(self, judged: StanceBlock, nav: NavBlock, steps: list[StepEvent]) -> list[Stride]:
         """Take the next samples and steps; return the strides that are known with them."""
@@ -74,14 +76,15 @@ class StrideAnalysis:
             yield self._stride(*self._waiting.popleft())
 
     def _mount(self, mounting: Mounting | None) -> None:
-        self.mounting, self._ahead = mounting, matrix(mounting.quat_xyzw)[0] if mounting else None
+        self.mounting, self._ahead = mounting, matrix(mounting.quat_xyzw)[0] if mounting else self._ahead
 
     def _stride(self, step: StepEvent, cycle: Cycle, marks: Marks) -> Stride:
         quat_xyzw = cycle.samples["quat_xyzw"]
         whole_ns, swing_ns = step.stamp_ns - step.start_ns, marks.heel_strike_ns - marks.toe_off_ns
         timed = whole_ns > 0 and marks.standing_ns <= PAUSE_NS
         swung = marks.seen and swing_ns > 0
-        pitch = foot_pitch.over_stride(*cycle, self._ahead) if marks.seen and self._ahead is not None else None
+        pitch = foot_pitch.over_stride(*cycle, self._ahead) if marks.seen else None
+        pitch = pitch if self.mounting else None
         return Stride(
             step,
             duration_s=whole_ns / NANOSECONDS if timed else None,
