@@ -91,7 +91,7 @@ def test_equal_lengths_have_no_density_and_wild_ones_few_bars(make):
 
 def test_the_pitch_of_many_strides_is_thinned_but_not_its_mean(make):
     faint, mean = gait_plots.pitch(strides(make, (0.0,) * 1000)).data
-    assert len(faint.x) == len(faint.y) <= (gait_plots.CURVES + 1) * (CYCLE_POINTS + 1)
+    assert len(faint.x) == len(faint.y) < 10_000
     assert faint.y[CYCLE_POINTS] is None
     assert max(mean.y) == pytest.approx(50.0, abs=0.01)
 
@@ -135,4 +135,4 @@ def test_the_alignment_as_qiu_shows_it(tmp_path):
     write_mounting(tmp_path / "m.html", "<walk>", "words", shown)
     text = (tmp_path / "m.html").read_text(encoding="utf-8")
     assert "&lt;walk&gt;" in text
-    assert "1.00000" in text
+    assert 0 < text.index("<td>0.80000</td>") < text.index("<td>1.00000</td>")
