@@ -9,17 +9,18 @@ import numpy as np
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.conventions import NANOSECONDS
+from pdr_core.evaluation.gait_totals import gait_totals
 from pdr_core.evaluation.report import write_report
 from pdr_core.evaluation.result import CAUSAL, Hindsight, Result
 from pdr_core.evaluation.score import Scorer, start_of_steps_m
 from pdr_core.evaluation.trace import Trace
 from pdr_core.evaluation.words import nothing_usable
 from pdr_core.params import Params, params_as_mapping
-from pdr_core.pipeline import FootOutput
+from pdr_core.pipeline import FootGait, FootOutput
 from pdr_core.recording import Sensor, Session
 from pdr_core.recording.strides import write_strides
 from pdr_core.recording.tum import Trajectory, append_tum, write_tum_header
-from pdr_core.records import Floats, Notice, StepEvent, length
+from pdr_core.records import Floats, Notice, StepEvent, Stride, length
 
 FILES = "trajectory.tum, strides.csv, result.json, report.html"
 
@@ -44,6 +45,8 @@ class Book:
         self.duration_s = 0.0  # of the estimate; where the clock jumps back, nobody knows how much time passed
         self._last_ns: int | None = None
         self.steps: list[StepEvent] = []
+        self._gait = FootGait()
+        self._strides: list[Stride] = []
         if out:
             make_folder(out)
             self._trajectory = stack.enter_context((out / "trajectory.tum").open("w"))
@@ -53,6 +56,7 @@ class Book:
         """Take the next estimates and steps."""
         nav = output.nav
         self.steps += output.steps
+        self._strides += self._gait.run(output)
         if not length(nav):
             return
         steps_ns = np.diff(nav.stamp_ns, prepend=nav.stamp_ns[0] if self._last_ns is None else self._last_ns)
@@ -79,6 +83,7 @@ class Book:
         """Return the result and write the files; Problem if there was no usable sample."""
         if self._last_ns is None:
             raise Problem(nothing_usable(str(self._session.path), notices))
+        self._strides += self._gait.finish()
         result = Result(
             recording=str(self._session.path),
             format=self._session.format,
@@ -91,8 +96,9 @@ class Book:
             end_position_m=self._scorer.end_position_m,
             closure_2d_m=self._scorer.closure_2d_m,
             closure_3d_m=self._scorer.closure_3d_m,
+            gait=gait_totals(self._strides, self._gait.mounting) if self._strides else None,
             seconds=seconds,
-            notices=[*self._session.notices, *notices],
+            notices=[*self._session.notices, *notices, *self._gait.notices],
             config=params_as_mapping(params),
             truth=self._scorer.score(self.steps, self._start_position_m),
             version=VERSION,
@@ -103,7 +109,7 @@ class Book:
         return result
 
     def _write_files(self, out: Path, result: Result) -> None:
-        write_strides(out / "strides.csv", self.steps)
+        write_strides(out / "strides.csv", self._strides)
         (out / "result.json").write_text(result.to_json() + "\n")
         view = self._scorer.view(self.steps, self._start_position_m)
-        write_report(out / "report.html", result, self._trace, self.steps, view)
+        write_report(out / "report.html", result, self._trace, self._strides, view)

@@ -1,27 +1,34 @@
 """Compiles everything once, so that the first run of a user is fast: `python -m pdr_core.warmup`."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial, OrientedIntake, SmoothedFoot
-from pdr_core.records import inertial_block
+from pdr_core.pipeline import FootGait, FootInertial, OrientedIntake, SmoothedFoot
+from pdr_core.records import StepEvent, inertial_block
 
 DEFAULTS = Params()
+STEP = StepEvent(1, 0, 5_000_000, np.zeros(3), np.zeros(3), np.eye(3), 0.0, 0.0, sample_numbers=(0, 1))
 
 
 def warm_up(params: Params = DEFAULTS, smooth: bool = False) -> None:
-    """Run the pipeline over one sample: every function that it needs is compiled, or loaded from the cache.
+    """Run the pipeline over two samples: every function that it needs is compiled, or loaded from the cache.
 
     The smoother, which does not run live, is warmed up where it is asked for.
     """
-    one, gravity = np.zeros(1), np.array([[0.0, 0.0, 9.81]])
-    sample = inertial_block(np.zeros(1, np.int64), np.zeros((1, 3)), gravity, one, one)
-    for pipeline in (FootInertial(params), OrientedIntake(params)):
-        pipeline.run(sample)
-        pipeline.finish()
+    noise, gravity = np.zeros(2), np.tile([0.0, 0.0, 9.81], (2, 1))
+    samples = inertial_block(np.array([0, 5_000_000]), np.zeros((2, 3)), gravity, noise, noise)
+    pipeline, gait = FootInertial(params), FootGait()
+    gait.run(pipeline.run(samples))
+    gait.run(replace(pipeline.finish(), steps=[STEP]))
+    gait.finish()
+    oriented = OrientedIntake(params)
+    oriented.run(samples)
+    oriented.finish()
     if smooth:
         smoothed = SmoothedFoot(params)
-        smoothed.run(sample)
+        smoothed.run(samples)
         list(smoothed.finish())
 
 

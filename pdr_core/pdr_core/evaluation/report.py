@@ -4,14 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pdr_core.evaluation import plots
+from pdr_core.evaluation import gait_plots, plots
+from pdr_core.evaluation.gait_words import gait_rows
 from pdr_core.evaluation.page import page
 from pdr_core.evaluation.plan import plan
 from pdr_core.evaluation.result import LEVELS, Result, in_words
 from pdr_core.evaluation.score import TruthView
 from pdr_core.evaluation.trace import Trace
 from pdr_core.evaluation.words import counted, duration, metres, share
-from pdr_core.records import StepEvent, TruthKind
+from pdr_core.records import Stride, TruthKind
 
 
 class Card(NamedTuple):
@@ -31,20 +32,21 @@ class Picture(NamedTuple):
 
 
 def write_report(
-    path: Path, result: Result, trace: Trace, steps: Sequence[StepEvent], truth_view: TruthView | None
+    path: Path, result: Result, trace: Trace, strides: Sequence[Stride], truth_view: TruthView | None
 ) -> None:
     """Write the report of one sensor's run to a file. Raise OSError where it cannot be written."""
-    path.write_text(report(result, trace, steps, truth_view), encoding="utf-8")
+    path.write_text(report(result, trace, strides, truth_view), encoding="utf-8")
 
 
-def report(result: Result, trace: Trace, steps: Sequence[StepEvent], truth_view: TruthView | None) -> str:
+def report(result: Result, trace: Trace, strides: Sequence[Stride], truth_view: TruthView | None) -> str:
     """Return the page as text."""
     return page(
         "report.html.j2",
         result=result,
         words=in_words(result),
         cards=_cards(result),
-        pictures=list(_pictures(trace, steps, truth_view)) if len(trace.points.time_s) else [],
+        pictures=list(_pictures(trace, strides, truth_view)) if len(trace.points.time_s) else [],
+        gait=gait_rows(result.gait) if result.gait else [],
         notices=[(LEVELS[n.level], n.text, counted(n.count, "time")) for n in result.notices],
         config=list(_rows(result.config)),
     )
@@ -64,8 +66,9 @@ def _cards(result: Result) -> list[Card]:
     return cards
 
 
-def _pictures(trace: Trace, steps: Sequence[StepEvent], view: TruthView | None) -> Iterator[Picture]:
+def _pictures(trace: Trace, strides: Sequence[Stride], view: TruthView | None) -> Iterator[Picture]:
     """Yield the figures from top to bottom."""
+    steps = [stride.step for stride in strides]
     caption = "The track from above, each footfall a circle. An ellipse shows how uncertain the position is (1 σ)."
     laid = " The truth is turned and moved onto the estimate, as for ATE2." if view else ""
     yield Picture("plan", "Where the walk went", caption + laid, plan(trace, steps, view).to_json())
@@ -82,6 +85,22 @@ def _pictures(trace: Trace, steps: Sequence[StepEvent], view: TruthView | None) 
     if steps:
         caption = "Length and direction of each stride; 0° is the direction of x, left turns count up."
         yield Picture("strides", "Stride by stride", caption, plots.strides(steps).to_json())
+        yield from _gait_pictures(trace, strides)
+
+
+def _gait_pictures(trace: Trace, strides: Sequence[Stride]) -> Iterator[Picture]:
+    """Yield the figures of gait analysis."""
+    caption = "How often each length occurs, with its kernel density and a normal distribution of the same mean."
+    yield Picture("lengths", "How long the strides were", caption, gait_plots.lengths(strides).to_json())
+    if any(stride.pitch_cycle_rad is not None for stride in strides):
+        caption = "From the end of one stance to the end of the next; heel up is positive."
+        yield Picture("pitch", "How the foot tips", caption, gait_plots.pitch(strides).to_json())
+    caption = "Each footfall by its height, and how high the foot went above the line between two footfalls."
+    yield Picture("climb", "Up and down", caption, gait_plots.climb(strides).to_json())
+    caption = "All turns since the start added up; left turns count up, and nothing jumps at half a turn."
+    yield Picture("heading", "How far it turned", caption, gait_plots.heading(strides, trace).to_json())
+    caption = "The velocity of the foot along the axes of the plan and upwards."
+    yield Picture("velocity", "How fast the foot was", caption, gait_plots.velocity(trace).to_json())
 
 
 def _rows(config: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]]:

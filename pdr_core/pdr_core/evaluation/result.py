@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pdr_core.evaluation.gait_totals import GaitTotals
 from pdr_core.evaluation.score import TruthScore
 from pdr_core.evaluation.words import counted, duration, metres, share
 from pdr_core.records import Floats, Level, Notice, TruthKind
@@ -41,6 +42,7 @@ class Result:
     end_position_m: Floats  # (3,)
     closure_2d_m: float
     closure_3d_m: float
+    gait: GaitTotals | None  # None: no strides
     seconds: float  # that the estimation alone took
     notices: Sequence[Notice]
     config: Mapping[str, Any]
@@ -58,6 +60,7 @@ class Result:
         names = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes"]
         names += ["strides", "distance_m", "end_position_m", "closure_2d_m", "closure_3d_m", "seconds"]
         content = {name: getattr(self, name) for name in names}
+        content["gait"] = self.gait.to_mapping() if self.gait else None
         content["notices"] = [_notice(notice) for notice in self.notices]
         content["config"] = self.config
         content["truth"] = _truth(self.truth) if self.truth else None
@@ -87,15 +90,24 @@ class SensorsResult:
 
 
 def in_words(result: Result | SensorsResult) -> str:
-    """Return one to four plain sentences; one line for each of several sensors."""
+    """Return one to five plain sentences; one line for each of several sensors."""
     if isinstance(result, SensorsResult):
         return "\n".join(f"{name}: {in_words(one)}" for name, one in result.sensors.items())
     if not result.strides:
         return " ".join([f"No stride was found within {duration(result.duration_s)}.", *_notices(result.notices)])
     walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, 'stride')}"
     how = ", smoothed" if result.smoothed else ""
-    sentences = [f"{walked} within {duration(result.duration_s)}{how}.", *_error(result), *_notices(result.notices)]
-    return " ".join(sentences)
+    sentences = [f"{walked} within {duration(result.duration_s)}{how}.", *_gait(result.gait), *_error(result)]
+    return " ".join([*sentences, *_notices(result.notices)])
+
+
+def _gait(gait: GaitTotals | None) -> list[str]:
+    """Return one sentence on the usual stride, where there are enough to speak of one."""
+    if gait is None or not math.isfinite(gait.cadence_per_min.mean):
+        return []
+    usual = f"{metres(gait.length_m.mean)} long at {gait.cadence_per_min.mean:.0f} steps a minute"
+    stairs = [f"{metres(m)} {way}" for m, way in ((gait.climbed_m, "up"), (gait.descended_m, "down")) if m > 0.0]
+    return [f"A stride was {usual}" + (f"; stairs went {' and '.join(stairs)}" if stairs else "") + "."]
 
 
 def _error(result: Result) -> list[str]:

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pdr_core.conventions import seconds_between
 from pdr_core.maths.quaternion import yaw_rad
@@ -14,6 +15,7 @@ class TracePoints(NamedTuple):
 
     time_s: Floats  # (n,) since the first sample
     position_m: Floats  # (n, 3)
+    velocity_mps: Floats  # (n, 3) in the world frame
     horizontal_covariance_m2: Floats  # (n, 2, 2)
     height_sd_m: Floats  # (n,)
     yaw_rad: Floats  # (n,)
@@ -89,6 +91,7 @@ class Trace:
         return TracePoints(
             time_s=self.seconds(nav.stamp_ns[rows]),
             position_m=nav.position_m[rows].copy(),
+            velocity_mps=Rotation.from_quat(nav.quat_xyzw[rows]).apply(nav.velocity_mps[rows]),
             horizontal_covariance_m2=covariance_m2[:, :2, :2].copy(),
             height_sd_m=np.sqrt(covariance_m2[:, 2, 2]),
             yaw_rad=np.array([yaw_rad(quat) for quat in nav.quat_xyzw[rows]]),
@@ -99,5 +102,5 @@ class Trace:
 
 
 def _nothing() -> TracePoints:
-    none = np.empty(0)
-    return TracePoints(none, np.empty((0, 3)), np.empty((0, 2, 2)), none, none, np.empty(0, dtype=np.bool_), none, none)
+    none, rows = np.empty(0), np.empty((0, 3))
+    return TracePoints(none, rows, rows, np.empty((0, 2, 2)), none, none, np.empty(0, dtype=np.bool_), none, none)

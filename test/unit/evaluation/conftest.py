@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pdr_core.evaluation.result import Result
-from pdr_core.records import Level, NavBlock, Notice, StanceBlock, StepEvent, inertial_block
+from pdr_core.records import CYCLE_POINTS, Level, NavBlock, Notice, StanceBlock, StepEvent, Stride, inertial_block
 
 PERIOD_NS = 10_000_000  # 100 Hz
 STRIDE_SAMPLES, STANCE_SAMPLES = 120, 50
@@ -54,6 +54,28 @@ def steps_at(position_m, stamp_ns=None):
     ]
 
 
+def strides_of(steps, cycles=True):
+    """Steps in figures: the first does not know what came before it, the last ends in a pause."""
+    course_rad = np.radians(50.0) * np.sin(np.linspace(0.0, 2.0 * np.pi, CYCLE_POINTS))
+    return [
+        Stride(
+            step,
+            duration_s=None if step is steps[-1] else 1.2,
+            stance_s=None if step is steps[-1] else 0.75,
+            swing_s=0.45,
+            clearance_m=0.12,
+            turn_rad=0.1,
+            heading_change_rad=None if step is steps[0] else 0.1,
+            toe_off_ns=step.start_ns + 150_000_000,
+            heel_strike_ns=step.start_ns + 600_000_000,
+            pitch_max_rad=0.9,
+            pitch_min_rad=-0.35,
+            pitch_cycle_rad=course_rad if cycles and step is not steps[-1] else None,
+        )
+        for step in steps
+    ]
+
+
 def rectangle(stride_m=1.4, strides=(8, 5, 8, 5), start_ns=1_700_000_000_000_000_000):
     """Walk once round a rectangle and return the true motion, its stances and an estimate that drifts."""
     rng = np.random.default_rng(7)
@@ -86,7 +108,13 @@ def rectangle(stride_m=1.4, strides=(8, 5, 8, 5), start_ns=1_700_000_000_000_000
     measured_m = true_m + rng.normal(0, 2e-4, true_m.shape)
     steps = steps_at(estimate_m[ends], stamp_ns[ends])
     return SimpleNamespace(
-        nav=nav, judged=judged, steps=steps, stamp_ns=stamp_ns, true_m=measured_m, footfall_m=true_m[ends, :2]
+        nav=nav,
+        judged=judged,
+        steps=steps,
+        strides=strides_of(steps),
+        stamp_ns=stamp_ns,
+        true_m=measured_m,
+        footfall_m=true_m[ends, :2],
     )
 
 
@@ -105,6 +133,7 @@ def result_of(**changes):
         "end_position_m": np.array([1.0, 2.0, 3.0]),
         "closure_2d_m": 2.236,
         "closure_3d_m": 3.742,
+        "gait": None,
         "seconds": 0.25,
         "notices": [Notice(Level.WARN, "gap", "The sensor was silent for 0.3 s", 3, 0)],
         "config": {"stance": {"window_s": 0.035}},
@@ -119,5 +148,10 @@ def result_of(**changes):
 def make():
     """The makers above, by name."""
     return SimpleNamespace(
-        nav_block=nav_block, stance_block=stance_block, steps_at=steps_at, rectangle=rectangle, result_of=result_of
+        nav_block=nav_block,
+        stance_block=stance_block,
+        steps_at=steps_at,
+        strides_of=strides_of,
+        rectangle=rectangle,
+        result_of=result_of,
     )

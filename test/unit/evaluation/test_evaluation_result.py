@@ -4,12 +4,23 @@ import math
 import numpy as np
 import pytest
 
+from pdr_core.evaluation.gait_totals import gait_totals
 from pdr_core.evaluation.result import SensorsResult, in_words
 from pdr_core.evaluation.score import TruthScore
 from pdr_core.records import Level, Notice, TruthKind
 
 KEYS = ["recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes", "strides"]
-KEYS += ["distance_m", "end_position_m", "closure_2d_m", "closure_3d_m", "seconds", "notices", "config", "truth"]
+KEYS += [
+    "distance_m",
+    "end_position_m",
+    "closure_2d_m",
+    "closure_3d_m",
+    "seconds",
+    "gait",
+    "notices",
+    "config",
+    "truth",
+]
 KEYS += ["version", "commit"]
 
 
@@ -76,6 +87,13 @@ def test_words_without_truth(make):
         "Walked 98.4 m in 52 strides within 1 min 40 s. The estimate ends 2.24 m from where it began; the true path is "
         "not known. Warning: The sensor was silent for 0.3 s (3 times)."
     )
+
+
+def test_words_on_the_usual_stride(make):
+    strides = make.strides_of(make.steps_at(np.cumsum(np.tile([1.4, 0.0, 0.17], (11, 1)), axis=0)))
+    words = in_words(make.result_of(gait=gait_totals(strides, None)))
+    assert " A stride was 1.40 m long at 100 steps a minute; stairs went 1.70 m up. " in words
+    assert "A stride was" not in in_words(make.result_of(gait=gait_totals(strides[-1:], None)))
 
 
 def test_a_smoothed_run_is_said_to_be_one_whatever_its_pipeline_is_called(make):
