@@ -36,7 +36,8 @@ class Relay:
         qos = driver_input(topics.reliable)
         node.create_subscription(Imu, topics.imu, self._pass_on, qos, raw=True)
         if topics.mag:
-            node.create_subscription(MagneticField, topics.mag, self._record_mag, driver_input(False), raw=True)
+            self._fields = node.create_publisher(MagneticField, MAG_INPUT, OWN)
+            node.create_subscription(MagneticField, topics.mag, self._pass_field_on, qos, raw=True)
 
     def close(self) -> None:
         """Take nothing more."""
@@ -72,6 +73,7 @@ class Relay:
         self._publisher.publish(cdr)
         self._take(INPUT, IMU, cdr)
 
-    def _record_mag(self, cdr: bytes) -> None:
+    def _pass_field_on(self, cdr: bytes) -> None:
         if not self._closed:
+            self._fields.publish(cdr)
             self._take(MAG_INPUT, MAG, cdr)

@@ -9,7 +9,7 @@ from pdr_core.records import Level, Notice
 from pdr_nodes.qos import STATUS
 
 PERIOD_S = 1.0
-NO_INPUT = "no_input"  # the kind of notice that also the end of a recording brings
+NO_INPUT, NO_FIELD = "no_input", "no_field"  # the kinds of notice that also the end of a recording brings
 LIFECYCLE, STREAMS = "lifecycle", "streams"
 Source = Callable[[], list[Notice]]
 

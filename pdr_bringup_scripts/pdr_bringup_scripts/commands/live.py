@@ -11,7 +11,7 @@ DRIVERS = "a driver of ours to start for that topic: simulated, or replayed, wit
 
 def live(
     imu: str = typer.Option("/imu/data_raw", help="topic of the driver: sensor_msgs/Imu, raw, 100 Hz or more"),
-    mag: str = typer.Option("", help="topic of its sensor_msgs/MagneticField: recorded as imu/mag, not used otherwise"),
+    mag: str = typer.Option("", help="topic of its magnetometer: sensor_msgs/MagneticField, paired with it by stamp"),
     driver: str = typer.Option("none", help=DRIVERS),
     out: Path = typer.Option(None, "--out", "-o", help="folder for recording, trajectory, result and report"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
