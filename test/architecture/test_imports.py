@@ -8,7 +8,10 @@ from source_tree import CHECKOUT, modules, shown, tree
 MESSAGES = (
     "builtin_interfaces diagnostic_msgs geometry_msgs nav_msgs pdr_msgs rcl_interfaces sensor_msgs std_msgs tf2_msgs"
 )
-BASE = "numpy pdr_core.records pdr_core.conventions pdr_core.parameter pdr_core.params pdr_core.notices"
+BASE = (
+    "numpy pdr_core.records pdr_core.conventions pdr_core.parameter pdr_core.params pdr_core.notices"
+    " pdr_core.field_pairing"
+)
 STAGE = f"{BASE} pdr_core.maths scipy"
 # in the order in which a sample meets them; a stage that does not exist yet has its row already
 STAGES = ("intake", "stance", "strapdown", "eskf", "attitude", "heading", "gait", "power", "fusion")
@@ -30,6 +33,7 @@ MAY_IMPORT = {
     "pdr_core.params_detectors": "pdr_core.parameter",
     "pdr_core.params": "pdr_core.parameter pdr_core.params_foot pdr_core.params_detectors",
     "pdr_core.notices": "pdr_core.records",
+    "pdr_core.field_pairing": "numpy pdr_core.records pdr_core.conventions pdr_core.notices",
     "pdr_core.params_file": "yaml pdr_core.parameter pdr_core.params",
     "pdr_core.maths": f"{BASE} scipy",
     "pdr_core.maths.compiled": "numba",  # the only one: here the cache is keyed on the sources
