@@ -1,0 +1,53 @@
+"""Samples and fields through the processes of one foot give what the core alone makes of them, to the last bit."""
+
+import numpy as np
+import pytest
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu, MagneticField
+
+from pdr_bringup_scripts.chain import NODES, Chain
+from pdr_core.params import Params, changed, params_as_mapping
+from pdr_core.pipeline import FootInertial
+from pdr_core.records import joined, length
+from pdr_msgs.msg import StanceImu
+from pdr_nodes.convert import nav_block, stance_block
+from support.bench import Bench
+from support.walks import field_messages, imu_messages, magnetic_walk
+
+STRIDES = 3
+pytestmark = pytest.mark.usefixtures("ros_environment")
+
+
+@pytest.fixture(scope="module")
+def outputs(tmp_path_factory):
+    """The verdicts and estimates of a walk with a magnetometer: live, and of the core alone."""
+    params = changed(Params(), "node", magnetometer=True, input_reliable=True)
+    walk = magnetic_walk(STRIDES, 200.0)
+    logs = tmp_path_factory.mktemp("logs")
+    with Chain(logs, params_as_mapping(params), "magnetic", NODES) as chain, Bench(namespace="magnetic") as bench:
+        verdicts, odometry = bench.hear(StanceImu, "stance"), bench.hear(Odometry, "odom")
+        fields, samples = bench.publisher(MagneticField, "imu/mag"), bench.publisher(Imu, "imu/data_raw")
+        by_stamp = {(m.header.stamp.sec, m.header.stamp.nanosec): m for m in field_messages(walk)}
+        for message in imu_messages(walk):
+            if field := by_stamp.get((message.header.stamp.sec, message.header.stamp.nanosec)):
+                fields.publish(field)
+            samples.publish(message)
+        bench.until(lambda: len(odometry) == length(walk), "an estimate for each sample")
+        chain.check()
+    alone = FootInertial(params)
+    expected = alone.run(walk), alone.finish()
+    judged, nav = (joined([getattr(output, name) for output in expected]) for name in ("judged", "nav"))
+    return (joined([stance_block(m) for m in verdicts]), judged), (joined([nav_block(m) for m in odometry]), nav)
+
+
+def test_every_field_reaches_the_filter(outputs):
+    live, alone = outputs[0]
+    for column, wanted in zip(live.imu, alone.imu, strict=True):
+        np.testing.assert_array_equal(column, wanted)
+    assert 0.8 < np.mean(live.imu.field_sd_tesla > 0.0) < 0.9
+
+
+def test_every_estimate_is_the_same(outputs):
+    for column, wanted in zip(*outputs[1], strict=True):
+        np.testing.assert_array_equal(column, wanted)
+    assert np.hypot(*outputs[1][0].position_m[-1, :2]) == pytest.approx(1.2 * STRIDES, rel=0.05)
