@@ -8,7 +8,21 @@ from pdr_core.conventions import GAP_NS
 from pdr_core.records import Flags, Stamps
 
 LATEST_NS = 2**62 - 1  # in the year 2116; so no difference of two stamps overflows
+ZERO = np.zeros(1, np.int64)
 USUAL = 64  # intervals; what is usual is the mean of so many
+
+
+def steps_ns(stamp_ns: Stamps, before_ns: int | None) -> Stamps:
+    """Return how far each stamp, (n,), is after the one before it; 0 for the first if there is none before."""
+    steps = np.empty_like(stamp_ns)
+    steps[0] = 0 if before_ns is None else stamp_ns[0] - before_ns
+    steps[1:] = stamp_ns[1:] - stamp_ns[:-1]
+    return steps
+
+
+def within_reckoning(stamp_ns: Stamps) -> Stamps:
+    """Return stamps, (n,), of which no difference overflows."""
+    return np.minimum(np.maximum(stamp_ns, -LATEST_NS), LATEST_NS)
 
 
 class Clock:
@@ -26,10 +40,8 @@ class Clock:
         """
         if not len(stamp_ns):
             return
-        before = stamp_ns[0] if self.last_ns is None else self.last_ns
-        back = np.diff(stamp_ns, prepend=before) < -self._jump_ns
-        edges = np.flatnonzero(back[1:]) + 1
-        starts = [0, *edges.tolist()]
+        back = steps_ns(stamp_ns, self.last_ns) < -self._jump_ns
+        starts = [0, *(back[1:].nonzero()[0] + 1).tolist()]
         for start, stop in zip(starts, [*starts[1:], len(stamp_ns)], strict=True):
             jumped = bool(back[start])
             self.newest_ns = None if jumped else self.newest_ns
@@ -58,12 +70,12 @@ class UsualInterval:
         """Take n ascending stamps; return what was usual at each of them, (n,) [ns], 0 as long as that is unknown."""
         if not len(stamp_ns):
             return stamp_ns
-        steps_ns = np.diff(stamp_ns, prepend=stamp_ns[0] if self._before_ns is None else self._before_ns)
+        apart_ns = steps_ns(stamp_ns, self._before_ns)
         self._before_ns = int(stamp_ns[-1])
-        counts = (steps_ns > 0) & (steps_ns <= GAP_NS)
-        known_ns = np.concatenate([self._recent_ns, steps_ns[counts]])
-        last = len(self._recent_ns) + np.cumsum(counts)
+        counts = (apart_ns > 0) & (apart_ns <= GAP_NS)
+        known_ns = np.concatenate([self._recent_ns, apart_ns[counts]])
+        last = len(self._recent_ns) + counts.cumsum()
         first = np.maximum(last - USUAL, 0)
-        sums_ns = np.concatenate([[0], np.cumsum(known_ns)])
+        sums_ns = np.concatenate([ZERO, known_ns.cumsum()])
         self._recent_ns = known_ns[-USUAL:]
         return (sums_ns[last] - sums_ns[first]) // np.maximum(last - first, 1)

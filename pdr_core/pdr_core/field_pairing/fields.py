@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pdr_core.field_pairing.clock import LATEST_NS, Clock
+from pdr_core.field_pairing.clock import LATEST_NS, Clock, within_reckoning
 from pdr_core.notices import Tally
 from pdr_core.records import Flags, Floats, ImuBlock, Level, Stamps, joined, length, part
 
@@ -46,7 +46,7 @@ class FieldStore:
     def put(self, stamp_ns: Stamps, field_tesla: Floats, field_sd_tesla: Floats) -> None:
         """Take m measurements; one that is no number counts as none."""
         self.ever |= len(stamp_ns) > 0
-        stamp_ns = np.clip(stamp_ns, -LATEST_NS, LATEST_NS)
+        stamp_ns = within_reckoning(stamp_ns)
         there = (field_sd_tesla >= 0.0) & np.isfinite(field_tesla).all(axis=1)
         values, deviations = np.where(there[:, None], field_tesla, 0.0), np.where(there, field_sd_tesla, -1.0)
         for start, stop, jumped in self._clock.runs(stamp_ns):
@@ -63,7 +63,7 @@ class FieldStore:
     def read(self, decided_ns: int) -> None:
         """Look at what has come; what lies at or before the latest sample that was given out is late."""
         if self._arrived:
-            new = joined(self._arrived)
+            new = joined(self._arrived) if len(self._arrived) > 1 else self._arrived[0]
             new.late[:] = (new.clock == self._passed) & (new.stamp_ns <= decided_ns)
             self._fields, self._arrived = part(joined([self._fields, new]), -MOST), []
 
@@ -73,7 +73,7 @@ class FieldStore:
             self._jumps.popleft()
             self._passed += 1
             self._deaf_until_ns = NOT_HEARD_NS
-            self._fields = part(self._fields, int(np.searchsorted(self._fields.clock, self._passed)))
+            self._fields = part(self._fields, int(self._fields.clock.searchsorted(self._passed)))
         before_ns, after_ns = self._jumps[0] if self._jumps else (LATEST_NS, sample_ns)
         return after_ns - 1 if after_ns > sample_ns else before_ns
 
@@ -89,23 +89,21 @@ class FieldStore:
     def _distance_ns(self, stamp_ns: int, ahead: int) -> int:
         """Return how far a stamp is from the fields of the present clock, or of the one that is ahead."""
         clocks, clock = self._fields.clock, self._passed + ahead
-        there = self._fields.newest_ns[np.searchsorted(clocks, clock) : np.searchsorted(clocks, clock, "right")]
-        right = int(np.searchsorted(there, stamp_ns))
+        there = self._fields.newest_ns[clocks.searchsorted(clock) : clocks.searchsorted(clock, "right")]
+        right = int(there.searchsorted(stamp_ns))
         near_ns = [*there[max(right - 1, 0) : right + 1].tolist(), self._jumps[0][ahead]]
         return min(abs(field_ns - stamp_ns) for field_ns in near_ns)
 
     def between(self, first_ns: int, last_ns: int) -> Fields:
         """Return the fields of the present clock from a stamp to another, and some others; their flags can be set."""
-        stop = int(np.searchsorted(self._fields.clock, self._passed, "right"))
+        stop = int(self._fields.clock.searchsorted(self._passed, "right"))
         within = self._fields.newest_ns[:stop]
-        return part(
-            self._fields, int(np.searchsorted(within, first_ns)), int(np.searchsorted(within, last_ns, "right"))
-        )
+        return part(self._fields, int(within.searchsorted(first_ns)), int(within.searchsorted(last_ns, "right")))
 
     def forget(self, before_ns: int) -> None:
         """Let go of what is earlier, once it is much, and count what nobody has taken."""
-        stop = int(np.searchsorted(self._fields.clock, self._passed, "right"))
-        gone = int(np.searchsorted(self._fields.newest_ns[:stop], before_ns))
+        stop = int(self._fields.clock.searchsorted(self._passed, "right"))
+        gone = int(self._fields.newest_ns[:stop].searchsorted(before_ns))
         if gone < min(HEAP, length(self._fields) // 2 + 1):
             return
         old, self._fields = part(self._fields, 0, gone), part(self._fields, gone)
@@ -129,8 +127,8 @@ class FieldStore:
 
 def with_fields(imu: ImuBlock, fields: Fields, choice: Stamps) -> ImuBlock:
     """Take the chosen fields, (n,), -1: none, and return the samples with them; others keep what they have."""
-    fields.free[choice[choice >= 0]] = False
-    got = np.flatnonzero(choice >= 0)
+    got = (choice >= 0).nonzero()[0]
+    fields.free[choice[got]] = False
     got = got[fields.field_sd_tesla[choice[got]] >= 0.0]
     if not len(got):
         return imu

@@ -25,12 +25,13 @@ def nearest(sample_ns: Stamps, reach_ns: Stamps, since_ns: int, field_ns: Stamps
 
     `since_ns`: how long the sample before the first one is ago.
     """
-    apart_ns = np.diff(sample_ns)
-    before_ns = np.minimum(reach_ns, (np.concatenate([[since_ns], apart_ns]) - 1) // 2)
-    after_ns = np.minimum(reach_ns, np.concatenate([apart_ns, [NEVER_NS]]) // 2)
+    apart_ns = np.empty(len(sample_ns) + 1, np.int64)
+    apart_ns[0], apart_ns[1:-1], apart_ns[-1] = since_ns, sample_ns[1:] - sample_ns[:-1], NEVER_NS
+    before_ns = np.minimum(reach_ns, (apart_ns[:-1] - 1) // 2)
+    after_ns = np.minimum(reach_ns, apart_ns[1:] // 2)
     if not len(field_ns):
         return Choice(np.full(len(sample_ns), -1), after_ns, np.zeros(len(sample_ns), np.bool_))
-    right = np.searchsorted(field_ns, sample_ns)
+    right = field_ns.searchsorted(sample_ns)
     left = right - 1
     left_ns = sample_ns - field_ns[np.maximum(left, 0)]
     right_ns = field_ns[np.minimum(right, len(field_ns) - 1)] - sample_ns

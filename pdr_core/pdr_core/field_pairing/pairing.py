@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pdr_core.conventions import GAP_NS, NANOSECONDS
-from pdr_core.field_pairing.clock import LATEST_NS, Clock, UsualInterval
+from pdr_core.field_pairing.clock import Clock, UsualInterval, steps_ns, within_reckoning
 from pdr_core.field_pairing.fields import NOT_HEARD_NS, Fields, FieldStore, with_fields
 from pdr_core.field_pairing.nearest import NEVER_NS, equal, nearest
 from pdr_core.notices import Tally
@@ -46,7 +46,8 @@ class FieldPairing:
         self._store = FieldStore(JUMP_WAITS * wait_ns, self._tally)
         self._waiting = NOBODY
         self._decided_ns = NOT_HEARD_NS  # latest sample that was given out
-        self._listened_ns = self._seen_ns = NOT_HEARD_NS
+        self._listened_ns: int | None = None
+        self._seen_ns = NOT_HEARD_NS
         self._silent = False
 
     def take_field(self, stamp_ns: Stamps, field_tesla: Floats, field_sd_tesla: Floats) -> None:
@@ -55,7 +56,7 @@ class FieldPairing:
 
     def run(self, imu: ImuBlock) -> ImuBlock:
         """Return the samples, of these and those that waited, whose field is decided now, in order."""
-        stamp_ns, given = np.clip(imu.stamp_ns, -LATEST_NS, LATEST_NS), [NO_SAMPLES]
+        stamp_ns, given = within_reckoning(imu.stamp_ns), []
         before_ns = self._clock.newest_ns
         for start, stop, jumped in self._clock.runs(stamp_ns):
             if jumped and before_ns is not None:
@@ -65,7 +66,7 @@ class FieldPairing:
                 self._take(part(imu, first, last), stamp_ns[first:last])
                 before_ns = int(self._clock.newest_ns or 0)
                 given.append(self._given_out(before_ns))
-        return joined(given)
+        return joined(given) if len(given) > 1 else [*given, NO_SAMPLES][0]
 
     def finish(self) -> ImuBlock:
         """Return those that still wait."""
@@ -89,14 +90,16 @@ class FieldPairing:
 
     def _begin_anew(self, newest_ns: int) -> None:
         self._interval.begin_anew()
-        self._decided_ns = self._listened_ns = self._seen_ns = NOT_HEARD_NS
+        self._decided_ns = self._seen_ns = NOT_HEARD_NS
+        self._listened_ns = None
         self._store.expect_jump(newest_ns)
 
     def _take(self, imu: ImuBlock, stamp_ns: Stamps) -> None:
         ascends, _ = self._clock.mark(stamp_ns)
         reach_ns = np.zeros(len(stamp_ns), np.int64)
         reach_ns[ascends] = self._interval.learn(stamp_ns[ascends]) // 2
-        self._waiting = joined([self._waiting, Waiting(imu, stamp_ns, ascends, reach_ns)])
+        new = Waiting(imu, stamp_ns, ascends, reach_ns)
+        self._waiting = joined([self._waiting, new]) if length(self._waiting) else new
 
     def _given_out(self, newest_ns: int, everything: bool = False) -> ImuBlock:
         """Return the samples that are decided, or all that wait."""
@@ -124,9 +127,9 @@ class FieldPairing:
         waiting = self._waiting
         choice = np.full(length(waiting), -1)
         certain = newest_ns - waiting.stamp_ns >= self._wait_ns
-        own = np.flatnonzero(waiting.ascends)
+        own = waiting.ascends.nonzero()[0]
         if len(own):
-            free = np.flatnonzero(fields.ascends & fields.free)
+            free = (fields.ascends & fields.free).nonzero()[0]
             stamp_ns = waiting.stamp_ns[own]
             since_ns = NEVER_NS if self._decided_ns == NOT_HEARD_NS else int(stamp_ns[0]) - self._decided_ns
             found = nearest(stamp_ns, waiting.reach_ns[own], since_ns, fields.stamp_ns[free])
@@ -147,9 +150,8 @@ class FieldPairing:
         """Count how often samples that are given out, (n,), were without a field for more than a second."""
         if not len(stamp_ns) or not self._store.ever:
             return
-        before_ns = stamp_ns[0] if self._listened_ns == NOT_HEARD_NS else self._listened_ns
-        begins = np.diff(stamp_ns, prepend=before_ns) > GAP_NS
-        begins[0] |= self._listened_ns == NOT_HEARD_NS
+        begins = steps_ns(stamp_ns, self._listened_ns) > GAP_NS
+        begins[0] |= self._listened_ns is None
         marks_ns = np.where(paired | begins, stamp_ns, NOT_HEARD_NS)
         seen_ns = np.maximum.accumulate(np.maximum(marks_ns, self._seen_ns))
         silent = stamp_ns - seen_ns > SILENCE_NS
