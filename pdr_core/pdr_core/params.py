@@ -1,6 +1,6 @@
 """Every parameter of the suite: one class per stage, one field per parameter.
 
-Those of stance detection and filter are in `params_foot.py` and `params_detectors.py`. YAML files, ROS declarations and
+Those of stance detection and filters are in `params_foot.py`, `params_detectors.py` and `params_attitude.py`. YAML files, ROS declarations and
 the tables of the documentation are generated from here (see `parameter.py`).
 """
 
@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from pdr_core.parameter import ParameterError, from_mapping, parameter
+from pdr_core.params_attitude import AttitudeParams as AttitudeParams
 from pdr_core.params_detectors import DetectorParams as DetectorParams
 from pdr_core.params_foot import FilterParams as FilterParams
 from pdr_core.params_foot import StanceParams as StanceParams
@@ -182,6 +183,7 @@ class Params:
     stance: StanceParams = field(default_factory=StanceParams)
     detectors: DetectorParams = field(default_factory=DetectorParams)
     filter: FilterParams = field(default_factory=FilterParams)
+    attitude: AttitudeParams = field(default_factory=AttitudeParams)
     driver: DriverParams = field(default_factory=DriverParams)
     simulation: SimulationParams = field(default_factory=SimulationParams)
     node: NodeParams = field(default_factory=NodeParams)

@@ -66,6 +66,15 @@ class NavBlock(NamedTuple):
     twist_covariance: Floats  # (n, 6, 6) velocity and rate in the foot frame
 
 
+class AttitudeBlock(NamedTuple):
+    """n orientations of one foot."""
+
+    stamp_ns: Stamps  # (n,)
+    quat_xyzw: Floats  # (n, 4) world from foot
+    attitude_covariance: Floats  # (n, 3, 3) [rad^2] rotation about the world's x, y, z
+    gyro_bias_radps: Floats  # (n, 3) measured = true + bias
+
+
 @dataclass(frozen=True)
 class PoseEstimate:
     """A pose in the world frame, and how well it is known."""

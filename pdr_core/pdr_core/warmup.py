@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial, SmoothedFoot
+from pdr_core.pipeline import FootInertial, OrientedIntake, SmoothedFoot
 from pdr_core.records import inertial_block
 
 DEFAULTS = Params()
@@ -16,9 +16,9 @@ def warm_up(params: Params = DEFAULTS, smooth: bool = False) -> None:
     """
     one, gravity = np.zeros(1), np.array([[0.0, 0.0, 9.81]])
     sample = inertial_block(np.zeros(1, np.int64), np.zeros((1, 3)), gravity, one, one)
-    pipeline = FootInertial(params)
-    pipeline.run(sample)
-    pipeline.finish()
+    for pipeline in (FootInertial(params), OrientedIntake(params)):
+        pipeline.run(sample)
+        pipeline.finish()
     if smooth:
         smoothed = SmoothedFoot(params)
         smoothed.run(sample)

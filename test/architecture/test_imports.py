@@ -31,7 +31,8 @@ MAY_IMPORT = {
     "pdr_core.parameter": "",
     "pdr_core.params_foot": "pdr_core.parameter",
     "pdr_core.params_detectors": "pdr_core.parameter",
-    "pdr_core.params": "pdr_core.parameter pdr_core.params_foot pdr_core.params_detectors",
+    "pdr_core.params_attitude": "pdr_core.parameter",
+    "pdr_core.params": "pdr_core.parameter pdr_core.params_foot pdr_core.params_detectors pdr_core.params_attitude",
     "pdr_core.notices": "pdr_core.records",
     "pdr_core.field_pairing": "numpy pdr_core.records pdr_core.conventions pdr_core.notices",
     "pdr_core.params_file": "yaml pdr_core.parameter pdr_core.params",
@@ -40,6 +41,7 @@ MAY_IMPORT = {
     **{f"pdr_core.{stage}": STAGE for stage in STAGES},
     # the filter predicts by mechanisation: one compiled loop per sample, so the two cannot meet in the pipeline
     "pdr_core.eskf": f"{STAGE} pdr_core.strapdown",
+    "pdr_core.attitude": f"{STAGE} pdr_core.strapdown",  # for the same reason: what two samples say of their interval
     "pdr_core.pipeline": f"{STAGE} {ALL_STAGES}",
     "pdr_core.warmup": f"{BASE} pdr_core.pipeline",
     "pdr_core.recording": f"{STAGE} rosbags mcap yaml apsw lz4 zstandard",

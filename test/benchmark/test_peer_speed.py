@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pdr_core.eskf.levelling import levelled
+from pdr_core.maths.levelling import levelled
 from pdr_core.recording import open_recording
 from pdr_core.records import ImuBlock, joined, length
 from support.peers import PeerError, peer_output, peer_python

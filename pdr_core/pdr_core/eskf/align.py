@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pdr_core.eskf.levelling import levelled
+from pdr_core.maths.levelling import levelled
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled

@@ -40,7 +40,7 @@ def moved_by_a_change_of(path: Path) -> set[str]:
         ("conventions.py", {FILTER, REST, VECTOR}),
         ("stance/rest.py", {REST}),
         ("eskf/zupt.py", {FILTER}),  # named as `from pdr_core.eskf import zupt`
-        ("eskf/levelling.py", {FILTER}),  # two imports away
+        ("maths/levelling.py", {FILTER}),  # two imports away
         ("params.py", set()),
         ("evaluation/score.py", set()),
     ],

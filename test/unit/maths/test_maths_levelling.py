@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pdr_core.eskf.levelling import levelled
+from pdr_core.maths.levelling import levelled
 from pdr_core.maths import quaternion
 
 G = 9.81
