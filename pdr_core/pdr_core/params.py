@@ -115,7 +115,19 @@ class SimulationParams:
     walk: str = parameter(
         "rectangle",
         "the walk; gui knows the first three",
-        choices=("rectangle", "straight", "still", "curve", "stairs", "run", "mixed"),
+        choices=(
+            "rectangle",
+            "straight",
+            "still",
+            "curve",
+            "stairs",
+            "run",
+            "mixed",
+            "qiu_rectangle",
+            "track",
+            "stair_climb",
+        ),
+        source="the last three: Qiu section 3",
     )
     walk_length_m: float = parameter(36.0, "length of the walk, without its stairs", unit="m", bounds=(0.0, 1e5))
     pace: float = parameter(
@@ -124,8 +136,8 @@ class SimulationParams:
     sensor_model: str = parameter(
         "consumer",
         "the sensor",
-        choices=("ideal", "consumer", "gui_table_1", "gui_table_1_deg"),
-        source="Gui Table 1",
+        choices=("ideal", "consumer", "gui_table_1", "gui_table_1_deg", "qiu_table_1"),
+        source="Gui Table 1, Qiu Table 1",
     )
     sample_rate_hz: float = parameter(200.0, "rate of the sensor", unit="Hz", bounds=(20.0, 4000.0))
     output: str = parameter(
@@ -144,7 +156,31 @@ class SimulationParams:
         0.0, "specific force at which the accelerometer clips; 0: as its model does", unit="m/s^2", bounds=(0.0, 5e3)
     )
     shock_mps2: float = parameter(0.0, "strongest shock at heel strike", unit="m/s^2", bounds=(0.0, 500.0))
-    seed: int = parameter(1, "seed of noise, biases and shocks", bounds=(0, 2**31))
+    magnetometer: bool = parameter(False, "the sensor measures the magnetic field too")
+    magnetometer_rate_hz: float = parameter(
+        0.0, "rate of the magnetometer; samples between have no field; 0: as the rest", unit="Hz", bounds=(0.0, 4000.0)
+    )
+    field_norm_tesla: float = parameter(50e-6, "strength of the Earth's field", unit="T", bounds=(0.0, 1e-3))
+    field_dip_deg: float = parameter(
+        60.0, "angle of the Earth's field below the horizon", unit="deg", bounds=(-90.0, 90.0)
+    )
+    field_declination_deg: float = parameter(
+        0.0, "angle of magnetic north east of the world's y", unit="deg", bounds=(-180.0, 180.0)
+    )
+    indoor_field: float = parameter(
+        0.0,
+        "strength of the iron below the floor beside the Earth's field; 0.25: norm +-20 %, azimuth +-20 deg",
+        bounds=(0.0, 2.0),
+    )
+    disturbance_tesla: float = parameter(
+        0.0, "strength of a level field that is switched on for some time", unit="T", bounds=(0.0, 1e-2)
+    )
+    disturbance_azimuth_deg: float = parameter(
+        0.0, "its direction, counter-clockwise from the world's x", unit="deg", bounds=(-180.0, 180.0)
+    )
+    disturbance_start_s: float = parameter(0.0, "when it is switched on", unit="s", bounds=(0.0, 1e6))
+    disturbance_s: float = parameter(10.0, "how long it stays on", unit="s", bounds=(0.0, 1e6))
+    seed: int = parameter(1, "seed of noise, biases, shocks and iron", bounds=(0, 2**31))
 
 
 @dataclass(frozen=True)

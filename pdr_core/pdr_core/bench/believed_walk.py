@@ -14,7 +14,7 @@ from pdr_core.params import FilterParams, Params, PlaceParams, changed
 from pdr_core.records import Floats, ImuBlock, Stamps, inertial_block
 from pdr_core.simulation.courses import gui_rectangle
 from pdr_core.simulation.gui_motion import GuiCourse, Phase
-from pdr_core.simulation.imu_model import SENSOR_MODELS
+from pdr_core.simulation.sensors import SENSOR_MODELS
 from pdr_core.simulation.increments import interval_means
 from pdr_core.simulation.motion import Motion
 

@@ -13,7 +13,7 @@ from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import joined
 from pdr_core.simulation import simulated_walk
-from pdr_core.simulation.imu_model import SENSOR_MODELS
+from pdr_core.simulation.sensors import SENSOR_MODELS
 
 RATE_HZ = 100.0  # f, Table 1
 LENGTH_M = 100.0

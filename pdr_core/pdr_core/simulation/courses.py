@@ -6,9 +6,10 @@ import numpy as np
 
 from pdr_core.parameter import ParameterError
 from pdr_core.simulation.foot_motion import REST_S, FootCourse
-from pdr_core.simulation.gait import RISE_M, RUN, SHUFFLE, STAIRS_DOWN, STAIRS_UP, WALK, Gait, Stride
+from pdr_core.simulation.gait import RISE_M, RUN, SHUFFLE, STAIRS_DOWN, STAIRS_UP, STROLL, WALK, Gait, Stride
 from pdr_core.simulation.gui_motion import STEP_LENGTH_M, GuiCourse, Phase, steps, turn
 from pdr_core.simulation.motion import Course
+from pdr_core.simulation.qiu_courses import LAP_M, qiu_rectangle, stair_climb, track
 
 FLIGHT = 9  # strides from one floor to the next: 3.06 m
 CORNER = 3  # strides of a walked turn by 90 degrees
@@ -53,6 +54,9 @@ def foot_course(name: str, length_m: float, pace: float) -> Course:
         "stairs": stairs,
         "run": lambda length_m: ahead(length_m, RUN),
         "mixed": mixed,
+        "qiu_rectangle": lambda length_m: qiu_rectangle(round(length_m / STROLL.length_m), length_m),
+        "track": lambda length_m: track([round(LAP_M / WALK.length_m)] * max(1, round(length_m / LAP_M))),
+        "stair_climb": lambda length_m: stair_climb(ahead(length_m / 2.0, WALK)),
     }[name](length_m)
     return FootCourse([replace(s, gait=s.gait.paced(pace)) for s in strides])
 

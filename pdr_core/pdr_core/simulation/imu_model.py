@@ -1,21 +1,23 @@
-"""What an IMU on the foot measures: rate and specific force, mounting, bias, noise and range (Gui eq. 31-32)."""
+"""What an IMU on the foot measures: rate and specific force, bias, noise and range (Gui eq. 31-32)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pdr_core.records import Floats, ImuBlock, Stamps, inertial_block
+from pdr_core.simulation.magnetometer import Magnetometer
 from pdr_core.simulation.motion import Motion
+from pdr_core.simulation.response import OVERSAMPLED_HZ, Response, answer
 
 EARTH_RATE_RADPS = 7.292115e-5  # of WGS 84
-BIASES = 1  # what is drawn from a seed beside the noise, each from a stream of its own
+BIASES, GYRO_AXES, ACCEL_AXES = 1, 4, 5  # what is drawn from a seed beside the noise, each from a stream of its own
 Axes = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
 class SensorModel:
-    """Biases, noise densities and ranges of a sensor."""
+    """Biases, noise densities, ranges and axes of a sensor."""
 
     gyro_bias_radps: Axes = (0.0, 0.0, 0.0)
     accel_bias_mps2: Axes = (0.0, 0.0, 0.0)
@@ -25,37 +27,25 @@ class SensorModel:
     accel_bias_sd_mps2: float = 0.0
     gyro_range_radps: float = np.inf
     accel_range_mps2: float = np.inf
+    gyro_response: Response = field(default_factory=Response)
+    accel_response: Response = field(default_factory=Response)
+    magnetometer: Magnetometer = field(default_factory=Magnetometer)
+
+    @property
+    def filters(self) -> bool:
+        """It has a low-pass before it samples."""
+        responses = (self.gyro_response, self.accel_response, self.magnetometer.response)
+        return any(np.isfinite(response.bandwidth_hz) for response in responses)
+
+    def oversampling(self, rate_hz: float) -> int:
+        """Return how many true values a sample takes: one, or as many as its low-pass has to see."""
+        return int(np.ceil(OVERSAMPLED_HZ / rate_hz)) if self.filters else 1
 
     def biases(self, seed: int) -> tuple[Floats, Floats]:
         """Return the biases [rad/s], [m/s^2] of the sensor with this seed, (3,) each."""
         drawn = np.random.default_rng([seed, BIASES]).standard_normal((2, 3))
         gyro = np.array(self.gyro_bias_radps) + self.gyro_bias_sd_radps * drawn[0]
         return gyro, np.array(self.accel_bias_mps2) + self.accel_bias_sd_mps2 * drawn[1]
-
-
-MPU_9250 = SensorModel(gyro_range_radps=34.9, accel_range_mps2=156.9)  # 2000 deg/s, 16 g: Gui Table 2
-GUI_TABLE_1 = replace(
-    MPU_9250,
-    gyro_bias_radps=(0.02618, 0.03491, 0.02094),
-    accel_bias_mps2=(0.1, 0.2, 0.15),
-    gyro_noise_density=0.1,
-    accel_noise_density=0.1,
-)
-SENSOR_MODELS = {
-    "ideal": SensorModel(),
-    # 0.1 deg/s and 10 mg after calibration, 0.01 deg/s/sqrt(Hz), 300 ug/sqrt(Hz): data sheet of the MPU-9250
-    "consumer": replace(
-        MPU_9250,
-        gyro_bias_radps=(0.0017, -0.0012, 0.0017),
-        accel_bias_mps2=(0.05, -0.05, 0.1),
-        gyro_noise_density=1.75e-4,
-        accel_noise_density=2.9e-3,
-    ),
-    # As printed. 0.1 rad/sqrt(s) is about 300 times what the data sheet of the sensor says; no foot filter survives it.
-    "gui_table_1": GUI_TABLE_1,
-    # 0.1 deg/sqrt(s), which may be meant: ten times the data sheet
-    "gui_table_1_deg": replace(GUI_TABLE_1, gyro_noise_density=float(np.radians(0.1))),
-}
 
 
 def point_samples(motion: Motion, gravity_mps2: float) -> tuple[Floats, Floats]:
@@ -75,6 +65,15 @@ def earth_in_foot(motion: Motion, latitude_rad: float) -> Floats:
     """
     world = EARTH_RATE_RADPS * np.array([0.0, np.cos(latitude_rad), np.sin(latitude_rad)])
     return Rotation.from_quat(motion.quat_xyzw).inv().apply(world)
+
+
+def answered(
+    gyro_radps: Floats, accel_mps2: Floats, rate_hz: float, model: SensorModel, seed: int
+) -> tuple[Floats, Floats]:
+    """Return what the axes of the sensor show of true rates and forces, (n, 3) each, that follow at `rate_hz`."""
+    rngs = [np.random.default_rng([seed, stream]) for stream in (GYRO_AXES, ACCEL_AXES)]
+    gyro = answer(gyro_radps, rate_hz, model.gyro_response, model.gyro_range_radps, rngs[0])
+    return gyro, answer(accel_mps2, rate_hz, model.accel_response, model.accel_range_mps2, rngs[1])
 
 
 def sensed(

@@ -57,3 +57,8 @@ def attitude(euler_rad: Floats, euler_rate_radps: Floats) -> tuple[Floats, Float
         ]
     )
     return Rotation.from_euler("xyz", euler_rad).as_quat(), rate_radps
+
+
+def thinned(motion: Motion, every: int) -> Motion:
+    """Return the first of every so many rows of a motion."""
+    return Motion(*(getattr(motion, name)[::every] for name in motion.__dataclass_fields__))

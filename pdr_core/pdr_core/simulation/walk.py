@@ -1,19 +1,13 @@
 """Whole simulated walks by name."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
-from pdr_core.conventions import gravity_mps2, seconds_between, stamp_ns_from_seconds
-from pdr_core.maths import quaternion
-from pdr_core.maths.vector import each_rotated
 from pdr_core.params import PlaceParams, SimulationParams
-from pdr_core.records import Floats, ImuBlock, Stamps, Truth, TruthKind
+from pdr_core.records import ImuBlock, Truth, TruthKind
 from pdr_core.simulation.courses import foot_course, gui_course
-from pdr_core.simulation.imu_model import SENSOR_MODELS, SensorModel, earth_in_foot, point_samples, sensed
-from pdr_core.simulation.increments import interval_means
-from pdr_core.simulation.motion import Course, Motion
-from pdr_core.simulation.shocks import shocks_mps2
+from pdr_core.simulation.imu_model import SensorModel
+from pdr_core.simulation.motion import Course, Motion, thinned
+from pdr_core.simulation.sensing import chosen_sensor, followed, inertial, magnetic
 
 
 @dataclass(frozen=True)
@@ -42,17 +36,17 @@ def walked(
     start_ns: int = 0,
     model: SensorModel | None = None,
 ) -> SimulatedWalk:
-    """Simulate the walk along any course, with the sensor that the parameters name, or with `model`."""
-    rate_hz = params.sample_rate_hz
-    stamp_ns = stamp_ns_from_seconds(np.arange(round(path.duration_s * rate_hz)) / rate_hz) + start_ns
-    time_s = seconds_between(stamp_ns, start_ns)
-    motion = path.at(time_s)
-    gyro, accel = felt(params, place or PlaceParams(), stamp_ns, motion)
-    if params.shock_mps2 > 0.0:
-        accel = accel + shocks_mps2(time_s, path.strikes_s, params.shock_mps2, params.seed)
-    chosen = ranged(model or SENSOR_MODELS[params.sensor_model], params)
-    imu = sensed(stamp_ns, in_sensor_axes(params, gyro), in_sensor_axes(params, accel), rate_hz, chosen, params.seed)
-    return SimulatedWalk(imu, motion, Truth(TruthKind.POSITION, stamp_ns, motion.position_m))
+    """Simulate the walk along any course, with the sensor that the parameters name, or with `model`.
+
+    ParameterError if sensor and output do not go together.
+    """
+    sensor = chosen_sensor(params, model)
+    path_followed = followed(path, params, sensor, start_ns)
+    imu = inertial(path_followed, params, place or PlaceParams(), sensor)
+    if params.magnetometer:
+        imu = magnetic(path_followed, params, sensor, imu)
+    motion = thinned(path_followed.motion, path_followed.often)
+    return SimulatedWalk(imu, motion, Truth(TruthKind.POSITION, imu.stamp_ns, motion.position_m))
 
 
 def course(params: SimulationParams) -> Course:
@@ -65,32 +59,3 @@ def course(params: SimulationParams) -> Course:
 def walk_duration_s(params: SimulationParams) -> float:
     """Return how long the walk takes [s]."""
     return course(params).duration_s
-
-
-def felt(params: SimulationParams, place: PlaceParams, stamp_ns: Stamps, motion: Motion) -> tuple[Floats, Floats]:
-    """Return the true rate and specific force in the foot frame, at each stamp or over the interval before, (n, 3)."""
-    latitude_rad = float(np.radians(place.latitude_deg))
-    gravity = gravity_mps2(latitude_rad, place.height_m)
-    if params.output == "means":
-        gyro, accel = interval_means(stamp_ns, motion.position_m, motion.velocity_mps, motion.quat_xyzw, gravity)
-    else:
-        gyro, accel = point_samples(motion, gravity)
-    return gyro + earth_in_foot(motion, latitude_rad) if params.earth_rate else gyro, accel
-
-
-def in_sensor_axes(params: SimulationParams, vectors: Floats) -> Floats:
-    """Return vectors of the foot frame along the axes of the sensor, (n, 3): the intake's mounting undoes it."""
-    p = params
-    R_foot_from_sensor = quaternion.matrix(
-        quaternion.from_euler(p.mounting_roll_rad, p.mounting_pitch_rad, p.mounting_yaw_rad)
-    )
-    return each_rotated(np.ascontiguousarray(R_foot_from_sensor.T), vectors)
-
-
-def ranged(model: SensorModel, params: SimulationParams) -> SensorModel:
-    """Return the sensor with the ranges that the parameters give; 0 leaves its own."""
-    return replace(
-        model,
-        gyro_range_radps=params.gyro_range_radps or model.gyro_range_radps,
-        accel_range_mps2=params.accel_range_mps2 or model.accel_range_mps2,
-    )

@@ -10,7 +10,8 @@ from pdr_core.conventions import gravity_mps2
 from pdr_core.intake import Ingestion
 from pdr_core.params import IntakeParams, PlaceParams, SimulationParams
 from pdr_core.simulation import simulated_walk
-from pdr_core.simulation.imu_model import SENSOR_MODELS, SensorModel, point_samples
+from pdr_core.simulation.imu_model import SensorModel, point_samples
+from pdr_core.simulation.sensors import SENSOR_MODELS
 from pdr_core.simulation.shocks import SHOCK_S
 from pdr_core.simulation.walk import course
 
