@@ -14,7 +14,7 @@ from std_msgs.msg import Header
 
 from pdr_core import records
 from pdr_core.conventions import NANOSECONDS, NO_STAMP
-from pdr_core.records import Floats, ImuBlock, NavBlock, Stamps, StanceBlock, inertial_block
+from pdr_core.records import AttitudeBlock, Floats, ImuBlock, NavBlock, Stamps, StanceBlock, inertial_block
 from pdr_msgs.msg import MargSample, StanceImu, StepEvent
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
@@ -63,16 +63,20 @@ def deviation(covariance: Floats) -> float:
     return -1.0 if variance == NOT_MEASURED else math.sqrt(max(variance, 0.0))
 
 
-def imu_message(block: ImuBlock, i: int, frame_id: str) -> Imu:
-    """Return sample i of a block."""
-    return with_sample(Imu(), block, i, frame_id)
+def imu_message(block: ImuBlock, i: int, frame_id: str, attitude: AttitudeBlock | None = None) -> Imu:
+    """Return sample i of a block, with the orientation there, if that is known."""
+    return with_sample(Imu(), block, i, frame_id, attitude)
 
 
-def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str) -> Imu:
-    """Fill a message with sample i of a block. The orientation is not measured."""
+def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str, attitude: AttitudeBlock | None = None) -> Imu:
+    """Fill a message with sample i of a block, and with the orientation of its frame in the world, if that is known."""
     message.header.stamp = time_message(int(block.stamp_ns[i]))
     message.header.frame_id = frame_id
-    message.orientation_covariance = isotropic(NOT_MEASURED)
+    if attitude is None:
+        message.orientation_covariance = isotropic(NOT_MEASURED)
+    else:
+        message.orientation = quaternion_message(attitude.quat_xyzw[i])
+        message.orientation_covariance = attitude.attitude_covariance[i].ravel()
     message.angular_velocity = vector(block.gyro_radps[i])
     message.angular_velocity_covariance = isotropic(float(block.gyro_sd_radps[i]))
     message.linear_acceleration = vector(block.accel_mps2[i])
@@ -124,10 +128,10 @@ def field_block(message: MagneticField) -> FieldBlock:
     return FieldBlock(stamps, field, np.array([sd]))
 
 
-def marg_message(block: ImuBlock, i: int, frame_id: str) -> MargSample:
-    """Return sample i of a block with its magnetic field."""
+def marg_message(block: ImuBlock, i: int, frame_id: str, attitude: AttitudeBlock | None = None) -> MargSample:
+    """Return sample i of a block with its magnetic field, and with the orientation there, if that is known."""
     message = MargSample()
-    with_sample(message.imu, block, i, frame_id)
+    with_sample(message.imu, block, i, frame_id, attitude)
     with_field(message.magnetic_field, block, i, message.imu.header)
     return message
 

@@ -15,13 +15,14 @@ from support.bench import Bench
 from support.walks import field_messages, imu_messages, magnetic_walk
 
 STRIDES = 3
+FULL_SPEED_S = 10.0  # so much, by stamps, one topic may be ahead of the other where all is said at once
 pytestmark = pytest.mark.usefixtures("ros_environment")
 
 
 @pytest.fixture(scope="module")
 def outputs(tmp_path_factory):
     """The verdicts and estimates of a walk with a magnetometer: live, and of the core alone."""
-    params = changed(Params(), "node", magnetometer=True, input_reliable=True)
+    params = changed(Params(), "node", magnetometer=True, input_reliable=True, field_wait_s=FULL_SPEED_S)
     walk = magnetic_walk(STRIDES, 200.0)
     logs = tmp_path_factory.mktemp("logs")
     with Chain(logs, params_as_mapping(params), "magnetic", NODES) as chain, Bench(namespace="magnetic") as bench:

@@ -27,9 +27,7 @@ class Response:
     bandwidth_hz: float = np.inf
 
 
-def answer(
-    true: Floats, rate_hz: float, response: Response, full_scale: float, rng: np.random.Generator
-) -> Floats:
+def answer(true: Floats, rate_hz: float, response: Response, full_scale: float, rng: np.random.Generator) -> Floats:
     """Return what the axes show of true vectors, (n, 3) both, that follow one another at `rate_hz`."""
     shares, leaning = rng.uniform(-1.0, 1.0, 3), rng.standard_normal((3, 3))
     shown = true
