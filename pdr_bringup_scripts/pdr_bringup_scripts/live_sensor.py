@@ -9,7 +9,15 @@ from pathlib import Path
 from pdr_bringup_scripts.chain import DRIVER, NODES, Chain, stay_on_this_machine
 from pdr_bringup_scripts.interrupt import Interrupt
 from pdr_bringup_scripts.listener import TOPICS, Ears
-from pdr_bringup_scripts.live import BAG, Watch, judge, make_run_folder, new_recording, quiet_for_good_s
+from pdr_bringup_scripts.live import (
+    BAG,
+    FIELD_WAIT_S,
+    Watch,
+    judge,
+    make_run_folder,
+    new_recording,
+    quiet_for_good_s,
+)
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.relay import INPUT, MAG_INPUT, DriverTopics, Relay
 from pdr_bringup_scripts.terminal import Terminal
@@ -46,8 +54,9 @@ def checked_topic(name: str, namespace: str) -> str:
 def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> Result:
     """Estimate what a driver publishes until Ctrl-C, the duration or our own driver ends it; fill the folder `out`."""
     make_run_folder(out)
-    node = replace(params.node, input_reliable=True, autostart=True, magnetometer=bool(job.topics.mag))
-    params = replace(params, node=node)  # the relay is ours
+    node = replace(params.node, input_reliable=True, autostart=True, magnetometer=bool(job.topics.mag))  # the relay's
+    wait_s = FIELD_WAIT_S if job.own_driver else node.field_wait_s
+    params = replace(params, node=replace(node, field_wait_s=wait_s))
     warm_up(params)
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", None)
@@ -77,6 +86,8 @@ def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
         if relay.first_s is None:
             chain.check()
             raise Problem(relay.why_silent())
+        if relay.lacks_field:
+            terminal.say(f"pdr: no messages on {job.topics.mag}: this walk is estimated without the magnetic field")
         show("ending: the nodes give out what they still hold")
         while watch.quiet_s < quiet_s:
             ears.listen(0.1)

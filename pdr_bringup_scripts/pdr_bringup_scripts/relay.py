@@ -32,6 +32,7 @@ class Relay:
         self._take = take
         self._closed = False
         self.first_s: float | None = None  # when the first sample came
+        self.lacks_field = bool(topics.mag)  # a field is expected and none has come yet
         self._publisher = node.create_publisher(Imu, INPUT, OWN)
         qos = driver_input(topics.reliable)
         node.create_subscription(Imu, topics.imu, self._pass_on, qos, raw=True)
@@ -75,5 +76,6 @@ class Relay:
 
     def _pass_field_on(self, cdr: bytes) -> None:
         if not self._closed:
+            self.lacks_field = False
             self._fields.publish(cdr)
             self._take(MAG_INPUT, MAG, cdr)

@@ -34,8 +34,10 @@ def live(
     from pdr_core.params_file import load_params
 
     chosen, own_driver = load_params(params) if params else Params(), driver != "none"
+    if chosen.node.magnetometer and not mag:
+        raise Problem("node.magnetometer is true: say by --mag on which topic the magnetometer is")
     if own_driver:
-        chosen = changed(chosen, "driver", device=driver)
+        chosen = changed(changed(chosen, "driver", device=driver), "simulation", magnetometer=bool(mag))
     if driver == "replayed" and not chosen.driver.recording:
         raise Problem("--driver replayed needs driver.recording in a file of --params, or use `pdr replay RECORDING`")
     home = checked_namespace(namespace)
