@@ -14,7 +14,7 @@ USUAL = 64  # intervals; what is usual is the mean of so many
 
 def steps_ns(stamp_ns: Stamps, before_ns: int | None) -> Stamps:
     """Return how far each stamp, (n,), is after the one before it; 0 for the first if there is none before."""
-    steps = np.empty_like(stamp_ns)
+    steps = np.empty(len(stamp_ns), np.int64)
     steps[0] = 0 if before_ns is None else stamp_ns[0] - before_ns
     steps[1:] = stamp_ns[1:] - stamp_ns[:-1]
     return steps
@@ -60,7 +60,7 @@ class UsualInterval:
 
     def __init__(self) -> None:
         self._before_ns: int | None = None
-        self._recent_ns = np.zeros(0, np.int64)
+        self._recent_ns: Stamps = np.zeros(0, np.int64)
 
     def begin_anew(self) -> None:
         """Note that the clock has jumped: the step across it is no interval."""
@@ -73,8 +73,8 @@ class UsualInterval:
         apart_ns = steps_ns(stamp_ns, self._before_ns)
         self._before_ns = int(stamp_ns[-1])
         counts = (apart_ns > 0) & (apart_ns <= GAP_NS)
-        known_ns = np.concatenate([self._recent_ns, apart_ns[counts]])
-        last = len(self._recent_ns) + counts.cumsum()
+        known_ns: Stamps = np.concatenate([self._recent_ns, apart_ns[counts]])
+        last = len(self._recent_ns) + np.cumsum(counts)
         first = np.maximum(last - USUAL, 0)
         sums_ns = np.concatenate([ZERO, known_ns.cumsum()])
         self._recent_ns = known_ns[-USUAL:]

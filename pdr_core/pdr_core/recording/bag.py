@@ -1,6 +1,9 @@
-"""Opens rosbag2 recordings and ROS 1 bags: every sensor_msgs/Imu topic is a sensor, each ground_truth topic a truth."""
+"""Opens rosbag2 recordings and ROS 1 bags: every sensor_msgs/Imu topic is a sensor, each ground_truth topic a truth.
 
-from collections.abc import Iterable
+Topics are called as REP-145 has it: beside `imu/data_raw` or `imu/data` is `imu/mag`, the field at the same sensor.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -10,12 +13,12 @@ from pdr_core.recording.bag_messages import BagReader
 from pdr_core.recording.bag_storage import SUFFIXES, open_storage
 from pdr_core.recording.ros1_storage import SUFFIX as ROS1
 from pdr_core.recording.session import RecordingError, Sensor, Session, put_warning
-from pdr_core.records import Notice, Truth
+from pdr_core.records import ImuBlock, Notice, Truth
 
-IMU = "sensor_msgs/msg/Imu"
+IMU, MAGNETIC = "sensor_msgs/msg/Imu", "sensor_msgs/msg/MagneticField"
 POSES = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"}
 FORMATS = SUFFIXES | {ROS1: "ros1"}
-TRUTH, RAW, COOKED = "/ground_truth", "/data_raw", "/data"
+TRUTH, RAW, COOKED, MAG = "/ground_truth", "/data_raw", "/data", "/mag"
 
 
 def open_bag_session(path: Path) -> Session:
@@ -28,7 +31,8 @@ def open_bag_session(path: Path) -> Session:
     if not imus:
         raise RecordingError(_nothing_inside(path, topics))
     truths = {t.removesuffix(TRUTH): t for t, msgtype in topics.items() if t.endswith(TRUTH) and msgtype in POSES}
-    sensors = {name: Sensor(name, _truth(bag, t, truths), partial(bag.imu_blocks, t)) for name, t in imus.items()}
+    fields = field_topics(list(imus.values()), [t for t, msgtype in topics.items() if msgtype == MAGNETIC])
+    sensors = {name: Sensor(name, _truth(bag, t, truths), _reading(bag, t, fields)) for name, t in imus.items()}
     name = path.name if path.is_dir() else path.stem
     return Session(name, path, FORMATS.get(files[0].suffix, "rosbag2"), sensors, notices)
 
@@ -37,12 +41,27 @@ def sensor_names(topics: Iterable[str]) -> dict[str, str]:
     """Return the Imu topics to read by sensor name: '/foot/data_raw' is 'foot', and stands before '/foot/data'."""
     names: dict[str, str] = {}
     for topic in sorted(topics, key=lambda t: (not t.endswith(RAW), t)):
-        base = topic.removesuffix(RAW).removesuffix(COOKED)
+        base = _base(topic)
         if topic.endswith(COOKED) and base + RAW in names.values():
             continue
         name = base.strip("/")
         names[name if name and name not in names else topic.strip("/")] = topic
     return names
+
+
+def field_topics(imus: Sequence[str], fields: Sequence[str]) -> dict[str, str]:
+    """Return the MagneticField topic of each Imu topic that has one: `mag` beside it, or the only one for the only."""
+    if len(imus) == 1 and len(fields) == 1:
+        return {imus[0]: fields[0]}
+    return {imu: _base(imu) + MAG for imu in imus if _base(imu) + MAG in fields}
+
+
+def _base(imu_topic: str) -> str:
+    return imu_topic.removesuffix(RAW).removesuffix(COOKED)
+
+
+def _reading(bag: BagReader, topic: str, fields: dict[str, str]) -> Callable[[int], Iterator[ImuBlock]]:
+    return partial(bag.paired_blocks, topic, fields[topic]) if topic in fields else partial(bag.imu_blocks, topic)
 
 
 def _files(path: Path, notices: list[Notice]) -> list[Path]:

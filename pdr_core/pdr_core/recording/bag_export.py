@@ -10,11 +10,13 @@ import numpy as np
 
 from pdr_core.recording.bag_writer import BagWriter
 from pdr_core.recording.imu_cdr import cdr_from_imu_block
+from pdr_core.recording.mag_cdr import FieldBlock, cdr_from_field_block
 from pdr_core.recording.session import Sensor
 from pdr_core.recording.stamped_cdr import encoded
 from pdr_core.records import Stamps, Truth
 
-IMU, POINT = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PointStamped"  # a point: nobody knows the true attitude
+IMU, MAGNETIC = "sensor_msgs/msg/Imu", "sensor_msgs/msg/MagneticField"
+POINT = "geometry_msgs/msg/PointStamped"  # nobody knows the true attitude
 TRUTH_FRAME = "ground_truth"
 Message = tuple[int, str, str, bytes]  # time of recording [ns], topic, type, CDR
 
@@ -47,9 +49,15 @@ def _samples(sensor: Sensor) -> Iterator[Message]:
     for piece in sensor.pieces():
         times_ns = recording_times_ns(piece.stamp_ns, latest_ns)
         latest_ns = int(times_ns[-1])
-        messages = cdr_from_imu_block(piece, sensor.name)
-        topic = f"{namespace(sensor.name)}/data_raw"
-        yield from ((t, topic, IMU, cdr) for t, cdr in zip(times_ns.tolist(), messages, strict=True))
+        topic, field_topic = f"{namespace(sensor.name)}/data_raw", f"{namespace(sensor.name)}/mag"
+        there = piece.field_sd_tesla >= 0.0
+        fields = FieldBlock(piece.stamp_ns[there], piece.field_tesla[there], piece.field_sd_tesla[there])
+        messages, field_messages = cdr_from_imu_block(piece, sensor.name), cdr_from_field_block(fields, sensor.name)
+        field_of = dict(zip(np.flatnonzero(there).tolist(), field_messages, strict=True))
+        for i, (recorded_ns, cdr) in enumerate(zip(times_ns.tolist(), messages, strict=True)):
+            yield recorded_ns, topic, IMU, cdr
+            if i in field_of:
+                yield recorded_ns, field_topic, MAGNETIC, field_of[i]
 
 
 def _truth(sensor: str, truth: Truth) -> Iterator[Message]:

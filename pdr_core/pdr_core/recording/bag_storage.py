@@ -1,18 +1,19 @@
 """The files of a bag, by topic: through their index where it can be read, and as far as they go where it cannot."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+Messages = Callable[[Collection[str]], Iterator[tuple[str, bytes]]]
 SUFFIXES = {".mcap": "mcap", ".db3": "sqlite3"}
 
 
 class Storage(NamedTuple):
-    """One file of a bag. `messages(topic)` yields CDR bytes, and raises anything where the file is damaged."""
+    """One file of a bag. `messages(topics)` yields topic and CDR bytes, and raises anything where it is damaged."""
 
     path: Path
     topics: dict[str, str]  # message type by topic
-    messages: Callable[[str], Iterator[bytes]]
+    messages: Messages
 
 
 def open_storage(path: Path) -> Storage:
@@ -35,11 +36,11 @@ def open_storage(path: Path) -> Storage:
 def _indexed(path: Path) -> Storage:
     from rosbags.rosbag2 import Reader
 
-    def messages(topic: str) -> Iterator[bytes]:
+    def messages(topics: Collection[str]) -> Iterator[tuple[str, bytes]]:
         with Reader(path) as reader:
-            connections = [c for c in reader.connections if c.topic == topic]
+            connections = [c for c in reader.connections if c.topic in topics]
             if connections:  # rosbags takes none for all
-                yield from (cdr for _, _, cdr in reader.messages(connections))
+                yield from ((c.topic, cdr) for c, _, cdr in reader.messages(connections))
 
     with Reader(path) as reader:
         return Storage(path, {c.topic: c.msgtype for c in reader.connections}, messages)

@@ -36,10 +36,11 @@ class TruthMap:
 
 @dataclass(frozen=True)
 class SensorMap:
-    """The columns of one inertial sensor."""
+    """The columns of one inertial (and magnetic) sensor."""
 
     gyro: Axes
     accel: Axes
+    mag: Axes | None
     truth: TruthMap | None
 
 
@@ -54,7 +55,11 @@ class ColumnMap:
     match: list[str]  # further columns that tell the format
 
     def columns(self) -> list[str]:
-        """Return the patterns of all columns that a file must have."""
+        """Return the patterns of the columns without which a file is not of this format."""
         axes = [a for s in self.sensors.values() for a in (s.gyro, s.accel)]
         time = [] if self.time.column is None else [self.time.column]
         return [*self.match, *time, *(c for a in axes for c in a.columns)]
+
+    def field_columns(self) -> list[str]:
+        """Return the patterns of the columns that hold the magnetic field."""
+        return [c for s in self.sensors.values() if s.mag for c in s.mag.columns]

@@ -15,6 +15,7 @@ from pdr_core.records import TruthKind
 
 GYRO_UNITS = {"rad/s": 1.0, "deg/s": pi / 180.0}
 ACCEL_UNITS = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2}
+FIELD_UNITS = {"T": 1.0, "uT": 1e-6, "nT": 1e-9, "G": 1e-4, "mG": 1e-7}
 LENGTH_UNITS = {"m": 1.0, "mm": 1e-3}
 HEADER_ROWS = {0: 0, 1: 1, 2: 2}
 
@@ -65,10 +66,12 @@ def _time(value: Any, where: str) -> TimeColumn:
 
 
 def _sensor(value: Any, where: str) -> SensorMap:
-    section = _section(value, where, {"gyro", "accel"}, {"truth"})
+    section = _section(value, where, {"gyro", "accel"}, {"mag", "truth"})
     truth = _truth(section["truth"], f"{where}.truth") if "truth" in section else None
     gyro = _vector(section["gyro"], f"{where}.gyro", GYRO_UNITS)
-    return SensorMap(gyro, _vector(section["accel"], f"{where}.accel", ACCEL_UNITS), truth)
+    accel = _vector(section["accel"], f"{where}.accel", ACCEL_UNITS)
+    mag = _vector(section["mag"], f"{where}.mag", FIELD_UNITS) if "mag" in section else None
+    return SensorMap(gyro, accel, mag, truth)
 
 
 def _vector(value: Any, where: str, units: dict[str, float]) -> Axes:

@@ -8,6 +8,9 @@ Its weights are symmetric. So it delays nothing, and the value belongs to the st
 Near an end of the recording, a gap, a value that is no number, or a gyro or accelerometer that goes on or off, the
 filter shrinks on both sides alike, until it ends there. So it never mixes what does not belong together, and what was
 not measured stays so.
+
+The magnetic field is filtered likewise where all of these samples have one. Where some have none, as with a slower
+magnetometer, a kept sample takes the mean of the fields that are nearer to it than to any other that is kept.
 """
 
 from collections.abc import Iterator
@@ -69,6 +72,28 @@ def smooth(samples: ImuBlock, start: int, keep_every: int, shape: Floats, kept: 
             kept.gyro_sd_radps[n] = np.sqrt(gyro_variance)
         if kept.accel_sd_mps2[n] >= 0.0:
             kept.accel_sd_mps2[n] = np.sqrt(accel_variance)
+        kept.field_sd_tesla[n] = field_of(samples, i, reach, keep_every, shape, kept.field_tesla[n])
+
+
+@compiled
+def field_of(samples: ImuBlock, i: int, reach: int, keep_every: int, shape: Floats, field_tesla: Floats) -> float:
+    """Put the field of a sample that is kept, (3,), in its place and return its deviation; -1: there is none."""
+    first, last, middle = -reach, reach, shape.shape[0] // 2
+    everywhere = np.all(samples.field_sd_tesla[i - reach : i + reach + 1] >= 0.0)
+    if not everywhere:
+        first, last = max(first, -(keep_every // 2)), min(last, (keep_every - 1) // 2)
+    field_tesla[:] = 0.0
+    total, variance = 0.0, 0.0
+    for k in range(first, last + 1):
+        if samples.field_sd_tesla[i + k] >= 0.0:
+            share = shape[middle + k] if everywhere else 1.0
+            total += share
+            field_tesla += share * samples.field_tesla[i + k]
+            variance += (share * samples.field_sd_tesla[i + k]) ** 2
+    if total == 0.0:
+        return -1.0
+    field_tesla /= total
+    return np.sqrt(variance) / total
 
 
 @compiled

@@ -1,9 +1,8 @@
-"""Between sensor_msgs/Imu and blocks, many messages at a time: several times as fast as one by one."""
+"""Between sensor_msgs/Imu and blocks, many messages at a time."""
 
 import numpy as np
 
-from pdr_core.conventions import NANOSECONDS
-from pdr_core.recording.stamped_cdr import LITTLE_ENDIAN, encoded, stamped_layout
+from pdr_core.recording.stamped_cdr import decoded, encoded
 from pdr_core.records import Floats, ImuBlock, inertial_block
 
 NUMBERS = 37  # orientation 4 + 9, angular rate 3 + 9, acceleration 3 + 9: each with its covariance
@@ -17,15 +16,12 @@ def imu_block_from_cdr(messages: list[bytes]) -> ImuBlock | None:
 
     A quantity whose covariance starts with -1 was not measured: its values are zero, its deviation is -1.
     """
-    layout = _layout(messages[0])
-    if layout is None or any(len(m) != layout.itemsize for m in messages):
+    found = decoded(messages, NUMBERS)
+    if found is None:
         return None
-    table = np.frombuffer(b"".join(messages), layout)
-    if (table["kind"] != table["kind"][0]).any():
-        return None
-    stamp_ns = table["sec"].astype(np.int64) * NANOSECONDS + table["nanosec"]
-    gyro, gyro_sd = _measured(table["numbers"], RATE)
-    accel, accel_sd = _measured(table["numbers"], ACCELERATION)
+    stamp_ns, numbers = found
+    gyro, gyro_sd = _measured(numbers, RATE)
+    accel, accel_sd = _measured(numbers, ACCELERATION)
     return inertial_block(stamp_ns, gyro, accel, gyro_sd, accel_sd)
 
 
@@ -39,16 +35,6 @@ def cdr_from_imu_block(block: ImuBlock, frame_id: str) -> list[bytes]:
         numbers[:, [start + axis for axis in VARIANCES]] = np.where(sd < 0.0, 0.0, sd**2)[:, None]
         numbers[sd < 0.0, start + 3] = -1.0
     return encoded(block.stamp_ns, numbers, frame_id)
-
-
-def _layout(message: bytes) -> np.dtype | None:
-    """Return where the fields of a message are, None if it is not as long as they ask for."""
-    little = message[:2] == LITTLE_ENDIAN
-    frame_bytes = int.from_bytes(message[12:16], "little" if little else "big")
-    if frame_bytes > len(message):
-        return None
-    layout = stamped_layout("<" if little else ">", frame_bytes, NUMBERS)
-    return layout if layout.itemsize == len(message) else None
 
 
 def _measured(numbers: Floats, start: int) -> tuple[Floats, Floats]:

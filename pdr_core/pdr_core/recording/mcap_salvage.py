@@ -1,18 +1,20 @@
 """Reads an MCAP file from its start to where it breaks off, without its summary."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import suppress
 from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
+from pdr_core.recording.bag_storage import Messages
+
 if TYPE_CHECKING:
     from mcap.records import Chunk, McapRecord
 
 
-def salvaged_mcap(path: Path) -> tuple[dict[str, str], Callable[[str], Iterator[bytes]]]:
-    """Return the message types by topic, and what yields the CDR bytes of a topic and raises where the file breaks."""
+def salvaged_mcap(path: Path) -> tuple[dict[str, str], Messages]:
+    """Return the message types by topic, and what yields topic and CDR bytes and raises where the file breaks."""
     from mcap.records import Channel, Schema
 
     names: dict[int, str] = {}
@@ -26,15 +28,15 @@ def salvaged_mcap(path: Path) -> tuple[dict[str, str], Callable[[str], Iterator[
     return topics, partial(_messages, path)
 
 
-def _messages(path: Path, topic: str) -> Iterator[bytes]:
+def _messages(path: Path, topics: Collection[str]) -> Iterator[tuple[str, bytes]]:
     from mcap.records import Channel, Message
 
-    channels = set()
+    channels: dict[int, str] = {}
     for record in _records(path):
-        if isinstance(record, Channel) and record.topic == topic:
-            channels.add(record.id)
+        if isinstance(record, Channel) and record.topic in topics:
+            channels[record.id] = record.topic
         elif isinstance(record, Message) and record.channel_id in channels:
-            yield record.data
+            yield channels[record.channel_id], record.data
 
 
 def _records(path: Path) -> "Iterator[McapRecord]":

@@ -1,24 +1,25 @@
 """ROS 1 bags, lz4 and bz2 included: their messages come out as ROS 2 would have written them."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from pdr_core.recording.bag_storage import Messages
 from pdr_core.recording.session import RecordingError
 
 SUFFIX = ".bag"
 
 
-def ros1_messages(path: Path) -> tuple[dict[str, str], Callable[[str], Iterator[bytes]]]:
-    """Return the message types by topic, and what yields the CDR bytes of a topic; RecordingError without an index."""
+def ros1_messages(path: Path) -> tuple[dict[str, str], Messages]:
+    """Return the message types by topic, and what yields topic and CDR bytes; RecordingError without an index."""
     from rosbags.rosbag1 import Reader, ReaderError
     from rosbags.typesys import Stores, get_typestore
 
-    def messages(topic: str) -> Iterator[bytes]:
+    def messages(topics: Collection[str]) -> Iterator[tuple[str, bytes]]:
         to_cdr = get_typestore(Stores.ROS2_JAZZY).ros1_to_cdr  # leaves out what only ROS 1 has: the header's `seq`
         with Reader(path) as reader:
-            connections = [c for c in reader.connections if c.topic == topic]
+            connections = [c for c in reader.connections if c.topic in topics]
             for connection, _, raw in reader.messages(connections=connections):
-                yield bytes(to_cdr(raw, connection.msgtype))
+                yield connection.topic, bytes(to_cdr(raw, connection.msgtype))
 
     try:
         with Reader(path) as reader:

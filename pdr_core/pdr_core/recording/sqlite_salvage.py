@@ -1,11 +1,13 @@
 """Reads an SQLite bag whose end is missing: row after row until a page is not there."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import closing, suppress
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
+
+from pdr_core.recording.bag_storage import Messages
 
 if TYPE_CHECKING:
     from apsw import VFS, Connection
@@ -13,8 +15,8 @@ if TYPE_CHECKING:
 WHOLE_PAGES = "pdr-whole-pages"
 
 
-def salvaged_sqlite(path: Path) -> tuple[dict[str, str], Callable[[str], Iterator[bytes]]]:
-    """Return the message types by topic, and what yields the CDR bytes of a topic and raises where the file breaks."""
+def salvaged_sqlite(path: Path) -> tuple[dict[str, str], Messages]:
+    """Return the message types by topic, and what yields topic and CDR bytes and raises where the file breaks."""
     topics: dict[str, str] = {}
     with suppress(Exception), closing(_connected(path)) as database:  # the damage is told when the messages are read
         topics.update(database.execute("SELECT name, type FROM topics"))
@@ -33,12 +35,12 @@ def _page_size(header: bytes) -> int:
     return 65536 if size <= 1 else size
 
 
-def _messages(path: Path, topic: str) -> Iterator[bytes]:
+def _messages(path: Path, topics: Collection[str]) -> Iterator[tuple[str, bytes]]:
     with closing(_connected(path)) as database:
-        ids = {row[0] for row in database.execute("SELECT id FROM topics WHERE name = ?", (topic,))}
+        names = {row[0]: row[1] for row in database.execute("SELECT id, name FROM topics") if row[1] in topics}
         for topic_id, cdr in database.execute("SELECT topic_id, data FROM messages NOT INDEXED ORDER BY id"):
-            if topic_id in ids:
-                yield cdr
+            if topic_id in names:
+                yield names[topic_id], cdr
 
 
 def _connected(path: Path) -> "Connection":

@@ -1,4 +1,7 @@
-"""CDR of messages that are a header and numbers: sensor_msgs/Imu, geometry_msgs/PointStamped."""
+"""CDR of messages that are a header and numbers: sensor_msgs/Imu, MagneticField, geometry_msgs/PointStamped.
+
+Many messages at a time: several times as fast as one by one.
+"""
 
 import numpy as np
 
@@ -23,6 +26,27 @@ def stamped_layout(order: str, frame_bytes: int, count: int) -> np.dtype:
     formats, offsets = zip(*fields.values(), strict=True)
     size = numbers + 8 * count
     return np.dtype({"names": list(fields), "formats": formats, "offsets": offsets, "itemsize": size})
+
+
+def decoded(messages: list[bytes], count: int) -> tuple[Stamps, Floats] | None:
+    """Return stamps (n,) and numbers (n, count), None if messages differ in layout or one cannot be decoded."""
+    layout = _layout(messages[0], count)
+    if layout is None or any(len(m) != layout.itemsize for m in messages):
+        return None
+    table = np.frombuffer(b"".join(messages), layout)
+    if (table["kind"] != table["kind"][0]).any():
+        return None
+    return table["sec"].astype(np.int64) * NANOSECONDS + table["nanosec"], table["numbers"]
+
+
+def _layout(message: bytes, count: int) -> np.dtype | None:
+    """Return where the fields of a message are, None if it is not as long as they ask for."""
+    little = message[:2] == LITTLE_ENDIAN
+    frame_bytes = int.from_bytes(message[12:16], "little" if little else "big")
+    if frame_bytes > len(message):
+        return None
+    layout = stamped_layout("<" if little else ">", frame_bytes, count)
+    return layout if layout.itemsize == len(message) else None
 
 
 def encoded(stamp_ns: Stamps, numbers: Floats, frame_id: str) -> list[bytes]:

@@ -1,6 +1,7 @@
 """Opens text and .mat recordings: finds the column map that fits, and reads sensors and truth as it says."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from pdr_core.recording.column_map_yaml import column_map_from_file, known_maps
 from pdr_core.recording.session import RecordingError, Sensor, Session
 from pdr_core.recording.table import Clock, Table, positions
 from pdr_core.recording.table_truth import clock_of, load_truth, open_table
-from pdr_core.records import ImuBlock, Notice, inertial_block
+from pdr_core.records import Floats, ImuBlock, Notice, inertial_block
 
 FOLDER_MAP = "pdr_columns.yaml"
 COLUMNS_SHOWN = 12
@@ -43,7 +44,7 @@ def _map_beside(path: Path) -> Path | None:
 
 def _check_fit(chosen: ColumnMap, table: Table, path: Path, source: Path) -> None:
     try:
-        positions(table, chosen.columns())
+        positions(table, [*chosen.columns(), *chosen.field_columns()])
     except LookupError as error:
         raise RecordingError(
             f"{path} does not fit the column map {source}: {error} of {_shown(table)}; correct the map."
@@ -55,7 +56,7 @@ def _known(path: Path) -> tuple[ColumnMap, Table]:
     tables = _tables(path, {known.header_rows for known in maps})
     for known in maps:
         if _fits(known.columns(), tables[known.header_rows]):
-            return known, tables[known.header_rows]
+            return _as_far_as_there(known, tables[known.header_rows]), tables[known.header_rows]
     table = tables[1]
     if any(_fits(_truth_columns(known), table) for known in maps):
         raise RecordingError(f"{path} holds only the truth of a walk: open the samples beside it, {path.stem}.csv.")
@@ -69,6 +70,12 @@ def _tables(path: Path, header_rows: set[int]) -> dict[int, Table]:
     if path.suffix.lower() == ".mat":
         return dict.fromkeys(header_rows, open_table(path, 1))
     return {rows: open_table(path, rows) for rows in header_rows}
+
+
+def _as_far_as_there(known: ColumnMap, table: Table) -> ColumnMap:
+    """Return the map without the magnetic fields that the file does not hold."""
+    there = {name: s for name, s in known.sensors.items() if s.mag and _fits(s.mag.columns, table)}
+    return replace(known, sensors={name: there.get(name, replace(s, mag=None)) for name, s in known.sensors.items()})
 
 
 def _fits(patterns: list[str], table: Table) -> bool:
@@ -96,8 +103,17 @@ def _sensor(name: str, sensor: SensorMap, chosen: ColumnMap, table: Table, path:
 def _blocks(
     table: Table, clock: Clock, sensor: SensorMap, notices: list[Notice], max_samples: int
 ) -> Iterator[ImuBlock]:
-    columns = positions(table, [*sensor.gyro.columns, *sensor.accel.columns])
-    scale = np.array([*sensor.gyro.scale, *sensor.accel.scale])
+    axes = [sensor.gyro, sensor.accel, *([sensor.mag] if sensor.mag else [])]
+    columns = positions(table, [c for a in axes for c in a.columns])
+    scale = np.array([s for a in axes for s in a.scale])
     for rows in table.pieces(clock, columns, max_samples, notices):
         values, unknown = rows.values * scale, np.zeros(len(rows.values))
-        yield inertial_block(rows.stamp_ns, values[:, :3], values[:, 3:], unknown, unknown)
+        block = inertial_block(rows.stamp_ns, values[:, :3], values[:, 3:6], unknown, unknown)
+        yield with_field(block, values[:, 6:]) if sensor.mag else block
+
+
+def with_field(block: ImuBlock, field_tesla: Floats) -> ImuBlock:
+    """Return samples with their field, (n, 3); one that is no number is none."""
+    field_sd_tesla = np.where(np.isfinite(field_tesla).all(axis=1), 0.0, -1.0)
+    field_tesla = np.where(field_sd_tesla[:, None] < 0.0, 0.0, field_tesla)
+    return block._replace(field_tesla=field_tesla, field_sd_tesla=field_sd_tesla)

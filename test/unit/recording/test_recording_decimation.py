@@ -32,8 +32,20 @@ def samples(values, sd=0.0):
     return inertial_block(np.arange(n) * STEP_NS, columns.copy(), columns.copy(), np.full(n, sd), np.full(n, sd))
 
 
+def with_field(block, there):
+    """Return samples of which those that are flagged have a field like their rate."""
+    field = np.where(there[:, None], block.gyro_radps, 0.0)
+    return block._replace(field_tesla=field, field_sd_tesla=np.where(there, block.gyro_sd_radps, -1.0))
+
+
 def noisy(n=400, seed=1):
     return samples(np.random.default_rng(seed).standard_normal(n), 1.0)
+
+
+def patchy():
+    """Return samples with a field at first, then now and then, then without one."""
+    row = np.arange(150)
+    return with_field(noisy(150), (row < 50) | ((row < 100) & (row % 7 == 0)))
 
 
 def whole(block, k):
@@ -103,6 +115,30 @@ def test_what_was_not_measured_stays_so_and_nothing_of_it_is_mixed_in(values, de
     np.testing.assert_array_equal(getattr(whole(block, 4), values)[on], getattr(out, values)[on])
 
 
+@pytest.mark.parametrize("k", RATIOS)
+def test_the_field_is_filtered_like_the_rest(k):
+    out = whole(with_field(noisy(), np.ones(400, bool)), k)
+    np.testing.assert_allclose(out.field_tesla, out.gyro_radps, rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(out.field_sd_tesla, out.gyro_sd_radps, rtol=1e-12)
+
+
+@pytest.mark.parametrize("k", RATIOS)
+def test_a_slow_magnetometer_loses_no_field_and_mixes_none_in(k):
+    there = np.random.default_rng(4).random(400) < 0.2
+    block = with_field(noisy(), there)
+    block.field_tesla[~there] = 1e6
+    out = whole(block, k)
+    for n, i in enumerate(range(0, 400, k)):
+        mine = [j for j in range(max(i - k // 2, 0), min(i + (k - 1) // 2 + 1, 400)) if there[j]]
+        if 4 * k <= i < 400 - 4 * k:
+            assert (out.field_sd_tesla[n] >= 0.0) == bool(mine)
+            expected = block.field_tesla[mine].mean(axis=0) if mine else np.zeros(3)
+            np.testing.assert_allclose(out.field_tesla[n], expected, rtol=1e-12)
+            assert not mine or out.field_sd_tesla[n] == pytest.approx(1.0 / np.sqrt(len(mine)))
+    plain = whole(noisy(), k)
+    assert same(out[:5], plain[:5]), "the others do not notice"
+
+
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_a_value_that_is_no_number_spoils_no_other(value):
     block = noisy()
@@ -127,7 +163,7 @@ def test_a_burst_on_arrival_is_filtered_like_even_samples():
 
 @given(st.sampled_from([1, 2, 3, 7]), st.lists(st.integers(0, 150), max_size=6))
 def test_a_stream_cut_anywhere_gives_the_same_bits(k, cuts):
-    block, decimation = noisy(150), Decimation(k)
+    block, decimation = patchy(), Decimation(k)
     edges = [0, *sorted(cuts), 150]
     pieces = [decimation.run(part(block, a, b)) for a, b in pairwise(edges)]
     assert same(joined([*pieces, decimation.finish()]), whole(block, k))
@@ -135,7 +171,7 @@ def test_a_stream_cut_anywhere_gives_the_same_bits(k, cuts):
 
 @given(st.lists(st.integers(1, 6), min_size=1, max_size=30), st.integers(1, 150))
 def test_a_stream_whose_rate_changes_gives_each_sample_as_its_rate_wants_it(ratios, cut):
-    block, i = noisy(150), 0
+    block, i = patchy(), 0
     stream = ThinnedStream(iter([part(block, 0, cut), part(block, cut)]))
     for k in ratios:
         if stream.next is None:
