@@ -122,8 +122,9 @@ def with_field(message: MagneticField, block: ImuBlock, i: int, header: Header) 
 
 
 def field_block(message: MagneticField) -> FieldBlock:
-    """Return a message as a block of one measurement."""
+    """Return a message as a block of one measurement; a covariance that is no number is one that is unknown."""
     sd = deviation(message.magnetic_field_covariance)
+    sd = sd if math.isfinite(sd) else 0.0
     stamps, field = np.array([stamp_ns(message.header.stamp)]), np.array([numbers(message.magnetic_field)])
     return FieldBlock(stamps, field, np.array([sd]))
 

@@ -14,7 +14,7 @@ from pdr_core.params import Params
 from pdr_core.records import Level, joined, length
 from pdr_msgs.msg import MargSample
 from pdr_nodes import catch_up
-from pdr_nodes.convert import marg_block
+from pdr_nodes.convert import field_block, marg_block
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
 from pdr_nodes.notice_board import notices_from
 from pdr_nodes.qos import OWN, STATUS
@@ -128,12 +128,12 @@ def test_a_magnetometer_that_falls_silent_and_is_started_again_costs_only_what_i
         assert node.told_within("samples", "field_silent").level is Level.WARN
 
 
-def test_fields_that_come_twice_or_are_no_numbers_are_none_of_a_sample():
+def test_a_field_that_is_none_or_no_number_leaves_its_sample_without_and_one_that_comes_twice_counts_once():
     bad = field_messages(WALK)
     for message in bad[100:120]:
         message.magnetic_field.y = math.nan
     for message in bad[200:210]:
-        message.magnetic_field_covariance = np.full(9, math.nan)
+        message.magnetic_field_covariance[0] = -1.0
     without = np.flatnonzero(HAS_FIELD)[np.r_[100:120, 200:210]]
     there = HAS_FIELD.copy()
     there[without] = False
@@ -186,3 +186,10 @@ def test_one_who_joins_late_pairs_what_the_topics_remember(monkeypatch):
         node.bench.until(lambda: held._other_ns == stamps(FIELDS)[-1], "the fields")
         node.bench.node._finish()
         check_fields(node.heard())
+
+
+@pytest.mark.parametrize("covariance", [math.nan, math.inf, 0.0])
+def test_a_field_whose_noise_nobody_knows_is_a_field(covariance):
+    message = field_messages(WALK)[0]
+    message.magnetic_field_covariance[0] = covariance
+    assert field_block(message).field_sd_tesla.tolist() == [0.0]
