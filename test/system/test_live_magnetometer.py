@@ -6,12 +6,15 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, MagneticField
 
 from pdr_bringup_scripts.chain import NODES, Chain
+from pdr_bringup_scripts.live_recording import messages
 from pdr_core.params import Params, changed, params_as_mapping
 from pdr_core.pipeline import FootInertial
+from pdr_core.recording import open_recording
 from pdr_core.records import joined, length
 from pdr_msgs.msg import StanceImu
 from pdr_nodes.convert import nav_block, stance_block
 from support.bench import Bench
+from support.processes import pdr
 from support.walks import field_messages, imu_messages, magnetic_walk
 
 STRIDES = 3
@@ -41,6 +44,27 @@ def outputs(tmp_path_factory):
     return (joined([stance_block(m) for m in verdicts]), judged), (joined([nav_block(m) for m in odometry]), nav)
 
 
+@pytest.fixture(scope="module", params=[0, 4])
+def replay(request, tmp_path_factory):
+    """A recording with a magnetometer of half the rate, and the folder of its replay: at full speed, and at a pace."""
+    folder = tmp_path_factory.mktemp("replay")
+    walk = "simulation: {magnetometer_rate_hz: 100.0, walk: straight}"
+    (folder / "mine.yaml").write_text(f"/**: {{ros__parameters: {{{walk}}}}}\n")
+    recording, mine = folder / "walk.mcap", ("--params", folder / "mine.yaml")
+    for command in (
+        ("simulate", "--magnetometer", "--length", 3.6, *mine, "--out", recording),
+        ("replay", recording, "--rate", request.param, "--out", folder / "live"),
+    ):
+        answer = pdr(*command)
+        assert answer.returncode == 0, answer.stderr
+    return recording, folder / "live"
+
+
+def all_samples(recording):
+    (sensor,) = open_recording(recording).sensors.values()
+    return joined(list(sensor.pieces()))
+
+
 def test_every_field_reaches_the_filter(outputs):
     live, alone = outputs[0]
     for column, wanted in zip(live.imu, alone.imu, strict=True):
@@ -52,3 +76,22 @@ def test_every_estimate_is_the_same(outputs):
     for column, wanted in zip(*outputs[1], strict=True):
         np.testing.assert_array_equal(column, wanted)
     assert np.hypot(*outputs[1][0].position_m[-1, :2]) == pytest.approx(1.2 * STRIDES, rel=0.05)
+
+
+def test_a_replay_records_every_field_that_it_plays(replay):
+    recording, live = replay
+    played = all_samples(recording)
+    for column, wanted in zip(all_samples(live / "recording"), played, strict=True):
+        np.testing.assert_array_equal(column, wanted)
+    assert np.mean(played.field_sd_tesla >= 0.0) == pytest.approx(0.5, abs=0.01)
+
+
+def test_a_replay_gives_the_filter_every_field_that_it_plays(replay):
+    recording, live = replay
+    alone = FootInertial(Params())
+    wanted = joined([alone.run(all_samples(recording)).judged, alone.finish().judged])
+    judged = joined([stance_block(m) for m in messages(live / "recording", "stance")])
+    for column, expected in zip(judged.imu, wanted.imu, strict=True):
+        np.testing.assert_array_equal(column, expected)
+    for column, expected in zip(judged[1:], wanted[1:], strict=True):
+        np.testing.assert_array_equal(column, np.minimum(expected, np.finfo(float).max))
