@@ -2,19 +2,21 @@
 
 import math
 from contextlib import contextmanager
+from itertools import count
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu, MagneticField
+from std_msgs.msg import Header
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
 from pdr_core.records import Level, joined, length
 from pdr_msgs.msg import MargSample
 from pdr_nodes import catch_up
-from pdr_nodes.convert import field_block, marg_block
+from pdr_nodes.convert import field_block, marg_block, time_message
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
 from pdr_nodes.notice_board import notices_from
 from pdr_nodes.qos import OWN, STATUS
@@ -45,10 +47,10 @@ class Fed:
             if publisher is self.imu:
                 self.bench.spin()
 
-    def heard(self, count=0):
+    def heard(self, wanted=0):
         """All samples, or so many, that came out with their fields, as a block."""
-        count = count or len(SAMPLES)
-        self.bench.until(lambda: len(self.margs) >= count, f"{count} samples")
+        wanted = wanted or len(SAMPLES)
+        self.bench.until(lambda: len(self.margs) >= wanted, f"{wanted} samples")
         return joined([marg_block(m) for m in self.margs])
 
     def told(self, what):
@@ -164,12 +166,24 @@ def test_both_clocks_that_jump_back_go_on_together():
 
 
 def test_a_slower_magnetometer_holds_nothing_up():
-    slow = np.arange(len(SAMPLES)) % 4 == 0
+    slow = HAS_FIELD & (np.arange(len(SAMPLES)) % 4 == 0)
     fields = field_messages(WALK._replace(field_sd_tesla=np.where(slow, 3e-7, -1.0)))
     with fed(node__idle_s=60.0, node__field_wait_s=10.0) as node:
         node.feed(at(SAMPLES), at(fields))
         block = node.heard(len(SAMPLES) - LATE)
     np.testing.assert_array_equal(block.field_sd_tesla >= 0.0, slow[: length(block)])
+
+
+def test_a_magnetometer_that_goes_on_alone_does_not_keep_the_last_samples_waiting():
+    later = (time_message(int(WALK.stamp_ns[-1]) + i * 10_000_000) for i in count(1))
+    with fed() as node:
+        node.feed(at(SAMPLES), at(FIELDS[:-1]))
+
+        def all_came():
+            node.mag.publish(MagneticField(header=Header(stamp=next(later))))
+            return len(node.margs) == len(SAMPLES)
+
+        node.bench.until(all_came, "the last sample", 5.0)
 
 
 def test_one_who_joins_late_pairs_what_the_topics_remember(monkeypatch):

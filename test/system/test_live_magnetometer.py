@@ -1,5 +1,7 @@
 """Samples and fields through the processes of one foot give what the core alone makes of them, to the last bit."""
 
+import json
+
 import numpy as np
 import pytest
 from nav_msgs.msg import Odometry
@@ -84,6 +86,7 @@ def test_a_replay_records_every_field_that_it_plays(replay):
     for column, wanted in zip(all_samples(live / "recording"), played, strict=True):
         np.testing.assert_array_equal(column, wanted)
     assert np.mean(played.field_sd_tesla >= 0.0) == pytest.approx(0.5, abs=0.01)
+    assert json.loads((live / "result.json").read_text())["notices"] == []
 
 
 def test_a_replay_gives_the_filter_every_field_that_it_plays(replay):
