@@ -16,6 +16,7 @@ from pdr_nodes.qos import OWN, STATUS
 
 TOPICS = {
     "imu/data_raw": "sensor_msgs/msg/Imu",
+    "imu/mag": "sensor_msgs/msg/MagneticField",
     "ground_truth": "geometry_msgs/msg/PoseStamped",
     "stance": "pdr_msgs/msg/StanceImu",
     "odom": "nav_msgs/msg/Odometry",

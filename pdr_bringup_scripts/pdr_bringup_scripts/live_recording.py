@@ -11,7 +11,7 @@ from pdr_bringup_scripts.problems import Problem
 from pdr_core.pipeline import FootOutput
 from pdr_core.records import Notice, joined
 from pdr_nodes.convert import nav_block, stamp_ns, stance_block, step_event
-from pdr_nodes.notice_board import NO_INPUT, notices_from
+from pdr_nodes.notice_board import NO_FIELD, NO_INPUT, ORIENTATION, notices_from
 from pdr_nodes.rate_limit import RateLimit
 
 PIECE = 5000
@@ -38,14 +38,15 @@ def outputs(bag: Path, odom_rate_hz: float) -> Iterator[FootOutput]:
 
 
 def notices(bag: Path, namespace: str) -> list[Notice]:
-    """Return the last word of every node of our namespace on what was wrong: anybody speaks on that topic.
+    """Return the last word of every node of our namespace on what was wrong with the track: anybody speaks there.
 
-    That the samples have come to their end is not wrong.
+    That samples and fields have come to their end is not wrong.
     """
     spoken = (status for m in messages(bag, "diagnostics") for status in m.status)
-    last = {status.name: status for status in spoken if status.name.startswith(f"{namespace}/")}
+    ours = (status for status in spoken if status.name.startswith(f"{namespace}/"))
+    last = {status.name: status for status in ours if not status.name.endswith(f": {ORIENTATION}")}
     found = [notice for status in last.values() for notice in notices_from(status.values)]
-    return [notice for notice in found if notice.kind != NO_INPUT]
+    return [notice for notice in found if notice.kind not in (NO_INPUT, NO_FIELD)]
 
 
 def messages(bag: Path, topic: str) -> Iterator[Any]:

@@ -9,9 +9,17 @@ from pathlib import Path
 from pdr_bringup_scripts.chain import DRIVER, NODES, Chain, stay_on_this_machine
 from pdr_bringup_scripts.interrupt import Interrupt
 from pdr_bringup_scripts.listener import TOPICS, Ears
-from pdr_bringup_scripts.live import BAG, Watch, judge, make_run_folder, new_recording, quiet_for_good_s
+from pdr_bringup_scripts.live import (
+    BAG,
+    FIELD_WAIT_S,
+    Watch,
+    judge,
+    make_run_folder,
+    new_recording,
+    quiet_for_good_s,
+)
 from pdr_bringup_scripts.problems import Problem
-from pdr_bringup_scripts.relay import INPUT, DriverTopics, Relay
+from pdr_bringup_scripts.relay import INPUT, MAG_INPUT, DriverTopics, Relay
 from pdr_bringup_scripts.terminal import Terminal
 from pdr_core.evaluation.result import Result
 from pdr_core.params import Params, params_as_mapping
@@ -19,6 +27,7 @@ from pdr_core.warmup import warm_up
 
 PATIENCE_S = 5.0  # without a sample, before we say so
 REMINDER_S = 30.0
+OUR_TOPICS = (INPUT, MAG_INPUT, "imu/data", "imu/marg")
 TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 
 
@@ -37,7 +46,7 @@ def checked_topic(name: str, namespace: str) -> str:
     topic = "/" + name.strip("/")
     if not TOPIC.fullmatch(topic):
         raise Problem(f"{name!r} is no ROS topic; it looks like /foot/imu")
-    if topic in (f"/{namespace}/imu/data", f"/{namespace}/{INPUT}"):
+    if topic.removeprefix(f"/{namespace}/") in OUR_TOPICS:
         raise Problem(f"{topic} is a topic of our own nodes: choose another --namespace for them")
     return topic
 
@@ -45,7 +54,9 @@ def checked_topic(name: str, namespace: str) -> str:
 def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> Result:
     """Estimate what a driver publishes until Ctrl-C, the duration or our own driver ends it; fill the folder `out`."""
     make_run_folder(out)
-    params = replace(params, node=replace(params.node, input_reliable=True, autostart=True))  # the relay is ours
+    node = replace(params.node, input_reliable=True, autostart=True, magnetometer=bool(job.topics.mag))  # the relay's
+    wait_s = FIELD_WAIT_S if job.own_driver else node.field_wait_s
+    params = replace(params, node=replace(node, field_wait_s=wait_s))
     warm_up(params)
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", None)
@@ -55,7 +66,7 @@ def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -
 
 def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
     """Run the nodes and write all they hear and say to a bag; Problem if no sample came."""
-    ours = {name: kind for name, kind in TOPICS.items() if name != INPUT}
+    ours = {name: kind for name, kind in TOPICS.items() if name not in (INPUT, MAG_INPUT)}
     with ExitStack() as stack:
         interrupt = stack.enter_context(Interrupt())
         show = stack.enter_context(terminal.progress("Listening"))
@@ -64,7 +75,7 @@ def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
         ears = stack.enter_context(Ears(watch.take, job.namespace, ours))
         relay = Relay(ears.node, job.topics, watch.take)
         nodes = (*NODES, DRIVER) if job.own_driver else NODES
-        remapped = {DRIVER: {INPUT: job.topics.imu}}
+        remapped = {DRIVER: {INPUT: job.topics.imu, **({MAG_INPUT: job.topics.mag} if job.topics.mag else {})}}
         chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), job.namespace, nodes, remapped))
         begin, silence, quiet_s = time.monotonic(), Silence(relay, terminal), quiet_for_good_s(params)
         while not (interrupt.asked or over(job, relay, begin) or (chain.driver_is_done and watch.quiet_s > quiet_s)):
@@ -75,6 +86,8 @@ def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
         if relay.first_s is None:
             chain.check()
             raise Problem(relay.why_silent())
+        if relay.lacks_field:
+            terminal.say(f"pdr: no messages on {job.topics.mag}: this walk is estimated without the magnetic field")
         show("ending: the nodes give out what they still hold")
         while watch.quiet_s < quiet_s:
             ears.listen(0.1)

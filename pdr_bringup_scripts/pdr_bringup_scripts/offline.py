@@ -67,6 +67,11 @@ def only_sensor(session: Session, name: str) -> Sensor:
     return sensors[0]
 
 
+def has_magnetometer(sensor: Sensor) -> bool:
+    """Tell whether any sample has a magnetic field; read up to there."""
+    return any((piece.field_sd_tesla >= 0.0).any() for piece in sensor.pieces())
+
+
 class Watch:
     """Adds up the time that the estimation alone takes."""
 

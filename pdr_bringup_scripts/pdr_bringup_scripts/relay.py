@@ -32,11 +32,13 @@ class Relay:
         self._take = take
         self._closed = False
         self.first_s: float | None = None  # when the first sample came
+        self.lacks_field = bool(topics.mag)  # a field is expected and none has come yet
         self._publisher = node.create_publisher(Imu, INPUT, OWN)
         qos = driver_input(topics.reliable)
         node.create_subscription(Imu, topics.imu, self._pass_on, qos, raw=True)
         if topics.mag:
-            node.create_subscription(MagneticField, topics.mag, self._record_mag, driver_input(False), raw=True)
+            self._fields = node.create_publisher(MagneticField, MAG_INPUT, OWN)
+            node.create_subscription(MagneticField, topics.mag, self._pass_field_on, qos, raw=True)
 
     def close(self) -> None:
         """Take nothing more."""
@@ -72,6 +74,8 @@ class Relay:
         self._publisher.publish(cdr)
         self._take(INPUT, IMU, cdr)
 
-    def _record_mag(self, cdr: bytes) -> None:
+    def _pass_field_on(self, cdr: bytes) -> None:
         if not self._closed:
+            self.lacks_field = False
+            self._fields.publish(cdr)
             self._take(MAG_INPUT, MAG, cdr)

@@ -229,6 +229,12 @@ class NodeParams:
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
     )
+    magnetometer: bool = parameter(
+        False, "the sensor has a magnetometer: its field on imu/mag is paired with the samples by stamp"
+    )
+    field_wait_s: float = parameter(
+        0.1, "a sample waits so long, by stamps, for its magnetic field", unit="s", bounds=(0.0, 10.0)
+    )
     odom_rate_hz: float = parameter(200.0, "odom comes at most so often, by its stamps", unit="Hz", bounds=(1.0, 4e3))
     answer_timeout_s: float = parameter(
         0.5, "a step's heading observation is waited for so long; 0: for ever", unit="s", bounds=(0.0, 60.0)

@@ -3,17 +3,19 @@
 import math
 import struct
 import sys
+from typing import NamedTuple
 
 import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, PoseStamped, PoseWithCovariance, Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, MagneticField
+from std_msgs.msg import Header
 
 from pdr_core import records
 from pdr_core.conventions import NANOSECONDS, NO_STAMP
-from pdr_core.records import Floats, ImuBlock, NavBlock, StanceBlock, inertial_block
-from pdr_msgs.msg import FilterHealth, StanceImu, StepEvent
+from pdr_core.records import AttitudeBlock, Floats, ImuBlock, NavBlock, Stamps, StanceBlock, inertial_block
+from pdr_msgs.msg import MargSample, StanceImu, StepEvent
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
 
@@ -61,16 +63,20 @@ def deviation(covariance: Floats) -> float:
     return -1.0 if variance == NOT_MEASURED else math.sqrt(max(variance, 0.0))
 
 
-def imu_message(block: ImuBlock, i: int, frame_id: str) -> Imu:
-    """Return sample i of a block."""
-    return with_sample(Imu(), block, i, frame_id)
+def imu_message(block: ImuBlock, i: int, frame_id: str, attitude: AttitudeBlock | None = None) -> Imu:
+    """Return sample i of a block, with the orientation there, if that is known."""
+    return with_sample(Imu(), block, i, frame_id, attitude)
 
 
-def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str) -> Imu:
-    """Fill a message with sample i of a block. The orientation is not measured."""
+def with_sample(message: Imu, block: ImuBlock, i: int, frame_id: str, attitude: AttitudeBlock | None = None) -> Imu:
+    """Fill a message with sample i of a block, and with the orientation of its frame in the world, if that is known."""
     message.header.stamp = time_message(int(block.stamp_ns[i]))
     message.header.frame_id = frame_id
-    message.orientation_covariance = isotropic(NOT_MEASURED)
+    if attitude is None:
+        message.orientation_covariance = isotropic(NOT_MEASURED)
+    else:
+        message.orientation = quaternion_message(attitude.quat_xyzw[i])
+        message.orientation_covariance = attitude.attitude_covariance[i].ravel()
     message.angular_velocity = vector(block.gyro_radps[i])
     message.angular_velocity_covariance = isotropic(float(block.gyro_sd_radps[i]))
     message.linear_acceleration = vector(block.accel_mps2[i])
@@ -90,11 +96,61 @@ def imu_block(message: Imu) -> ImuBlock:
     )
 
 
+class FieldBlock(NamedTuple):
+    """m measurements of the magnetic field, with stamps of their own."""
+
+    stamp_ns: Stamps  # (m,)
+    field_tesla: Floats  # (m, 3)
+    field_sd_tesla: Floats  # (m,) -1: none at this stamp
+
+
+def field_message(block: ImuBlock, i: int, frame_id: str) -> MagneticField:
+    """Return the magnetic field of sample i of a block; where it has none the message says so."""
+    message = MagneticField()
+    message.header.stamp = time_message(int(block.stamp_ns[i]))
+    message.header.frame_id = frame_id
+    return with_field(message, block, i, message.header)
+
+
+def with_field(message: MagneticField, block: ImuBlock, i: int, header: Header) -> MagneticField:
+    """Fill a message with the magnetic field of sample i of a block; where it has none the message only says so."""
+    message.magnetic_field_covariance = isotropic(float(block.field_sd_tesla[i]))
+    if block.field_sd_tesla[i] >= 0.0:
+        message.header = header
+        message.magnetic_field = vector(block.field_tesla[i])
+    return message
+
+
+def field_block(message: MagneticField) -> FieldBlock:
+    """Return a message as a block of one measurement; a covariance that is no number is one that is unknown."""
+    sd = deviation(message.magnetic_field_covariance)
+    sd = sd if math.isfinite(sd) else 0.0
+    stamps, field = np.array([stamp_ns(message.header.stamp)]), np.array([numbers(message.magnetic_field)])
+    return FieldBlock(stamps, field, np.array([sd]))
+
+
+def marg_message(block: ImuBlock, i: int, frame_id: str, attitude: AttitudeBlock | None = None) -> MargSample:
+    """Return sample i of a block with its magnetic field, and with the orientation there, if that is known."""
+    message = MargSample()
+    with_sample(message.imu, block, i, frame_id, attitude)
+    with_field(message.magnetic_field, block, i, message.imu.header)
+    return message
+
+
+def marg_block(message: MargSample | StanceImu) -> ImuBlock:
+    """Return a message as a block of one sample with its magnetic field, if it has one."""
+    block = imu_block(message.imu)
+    if message.magnetic_field.magnetic_field_covariance[0] == NOT_MEASURED:
+        return block
+    _, field, sd = field_block(message.magnetic_field)
+    return block._replace(field_tesla=field, field_sd_tesla=sd)
+
+
 def stance_message(block: StanceBlock, i: int, frame_id: str) -> StanceImu:
     """Return sample i of a block with its verdict."""
     message = StanceImu()
     with_sample(message.imu, block.imu, i, frame_id)  # a second Imu would cost as much as all the rest
-    message.magnetic_field.magnetic_field_covariance = isotropic(NOT_MEASURED)
+    with_field(message.magnetic_field, block.imu, i, message.imu.header)
     message.stance = bool(block.stance[i])
     message.statistic = finite(block.statistic[i])
     message.threshold = float(block.threshold[i])
@@ -113,7 +169,7 @@ def finite(value: float) -> float:
 def stance_block(message: StanceImu) -> StanceBlock:
     """Return a message as a block of one sample."""
     return StanceBlock(
-        imu_block(message.imu),
+        marg_block(message),
         np.array([message.stance]),
         np.array([message.statistic]),
         np.array([message.threshold]),
@@ -203,35 +259,6 @@ def transform_message(odometry: Odometry) -> TransformStamped:
     message.transform.translation.y = pose.position.y
     message.transform.translation.z = pose.position.z
     message.transform.rotation = pose.orientation
-    return message
-
-
-def health_message(
-    health: records.FilterHealth, notices: list[records.Notice], world_frame: str, foot_frame: str
-) -> FilterHealth:
-    """Return the filter's health as a message."""
-    message = FilterHealth(child_frame_id=foot_frame, state=health.mode.value)
-    message.header.stamp = time_message(health.stamp_ns)
-    message.header.frame_id = world_frame
-    message.nav_quality = health.quality
-    message.samples = health.samples
-    message.zero_velocity_updates = health.accepted
-    message.zero_velocity_contradictions = health.contradicted
-    message.gaps = health.gaps
-    message.resets = health.resets
-    message.since_zero_velocity = health.since_zero_velocity_s
-    message.normalised_innovation = health.normalised_innovation
-    message.position_stddev = health.position_sd_m
-    message.height_stddev = health.height_sd_m
-    message.velocity_stddev = health.velocity_sd_mps
-    message.tilt_stddev = health.tilt_sd_rad
-    message.yaw_stddev = health.yaw_sd_rad
-    message.gyro_bias = vector(health.gyro_bias_radps)
-    message.gyro_bias_stddev = vector(health.gyro_bias_sd_radps)
-    message.accel_bias = vector(health.accel_bias_mps2)
-    message.accel_bias_stddev = vector(health.accel_bias_sd_mps2)
-    message.gravity = health.gravity_mps2
-    message.notices = [notice.text for notice in notices]
     return message
 
 

@@ -1,14 +1,17 @@
-"""Node `imu_driver`: a device's samples out (`imu/data_raw`), with the truth beside them where the device knows it."""
+"""Node `imu_driver`: a device's samples out (`imu/data_raw`), with the truth beside them where the device knows it.
+
+Where `node.magnetometer` says so, the magnetic field goes out too (`imu/mag`), with the stamp of its sample.
+"""
 
 from builtin_interfaces.msg import Time
 from rclpy.duration import Duration
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, MagneticField
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.params import Params
 from pdr_core.records import Level, Notice
 from pdr_msgs.srv import SetGyroPower, SetSampleRate
-from pdr_nodes.convert import imu_message, stamp_ns, time_message
+from pdr_nodes.convert import field_message, imu_message, stamp_ns, time_message
 from pdr_nodes.devices import open_device
 from pdr_nodes.devices.player import Player
 from pdr_nodes.managed import ManagedNode
@@ -38,6 +41,8 @@ class ImuDriverNode(ManagedNode):
         self._pace = Pace(driver.rate_factor) if driver.rate_factor else Throttle(self, driver.acknowledge_topic)
         self.part(self._pace)
         self._samples = self.output(Imu, "imu/data_raw")
+        self._fields = self.output(MagneticField, "imu/mag") if params.node.magnetometer else None
+        self._outputs = [topic for topic in (self._samples, self._fields) if topic]
         self._truth = TruthPublisher(self, source.truth)
         self.service(SetGyroPower, "set_gyro_power", self._set_gyro_power)
         self.service(SetSampleRate, "set_sample_rate", self._set_sample_rate)
@@ -53,7 +58,8 @@ class ImuDriverNode(ManagedNode):
         self._begun = self._begun or self._all_are_there()
         for _ in range(BURST):
             if self._player.next is None:
-                self._samples.wait_for_all_acked(Duration(seconds=10))
+                for topic in self._outputs:
+                    topic.wait_for_all_acked(Duration(seconds=10))
                 return None
             wait_s = self._pace.wait_s(self._player.next_ns) if self._begun else LOOK_S
             if wait_s > 0.0:
@@ -62,10 +68,16 @@ class ImuDriverNode(ManagedNode):
         return 0.0
 
     def _all_are_there(self) -> bool:
-        return self._samples.get_subscription_count() >= self._listeners and self._pace.ready
+        return self._fewest_listeners()[0] >= self._listeners and self._pace.ready
+
+    def _fewest_listeners(self) -> tuple[int, str]:
+        """Return how many subscribe to the topic that has the fewest subscribers, and its name."""
+        return min((topic.get_subscription_count(), topic.topic_name) for topic in self._outputs)
 
     def _publish_next(self) -> None:
         sample = self._player.take()
+        if self._fields:  # before its sample, and also where there is none: so no sample waits
+            self._fields.publish(field_message(sample, 0, self._frame_id))
         self._samples.publish(imu_message(sample, 0, self._frame_id))
         self._truth.publish_until(int(sample.stamp_ns[0]))
         self._pace.sent(int(sample.stamp_ns[0]))
@@ -73,7 +85,7 @@ class ImuDriverNode(ManagedNode):
     def _notices(self) -> list[Notice]:
         if self._begun:
             return list(self._pace.notices)
-        there, topic = self._samples.get_subscription_count(), self._samples.topic_name
+        there, topic = self._fewest_listeners()
         text = f"waits for subscribers of {topic}: {there} of {self._listeners} are there (driver.subscribers)"
         if not self._pace.ready:
             text += "; and for one who acknowledges (driver.acknowledge_topic)"

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
@@ -16,6 +16,18 @@ from pdr_nodes.notice_board import NO_INPUT
 from pdr_nodes.repeats import Repeats
 
 SILENT_S = 2.0
+
+
+class Words(NamedTuple):
+    """What is said of a topic without messages, and by what names it is known."""
+
+    what: str = "samples"
+    silent: str = NO_INPUT  # kinds of notice
+    misfit: str = "incompatible_qos"
+    question: str = "is its publisher running, is the topic right?"
+
+
+SAMPLES = Words()
 
 
 class Input:
@@ -33,9 +45,10 @@ class Input:
         block: Callable[[Any], tuple],
         take: Callable[[tuple], None],
         restarts_anew: bool,
+        words: Words = SAMPLES,
     ) -> None:
         self._node, self._kind, self._topic, self._qos = node, kind, topic, qos
-        self._block, self._take = block, take
+        self._block, self._take, self._words = block, take, words
         self._blocks: list[tuple] = []  # of one sample each
         self._subscription: Subscription | None = None
         self._repeats = Repeats(frozenset if restarts_anew else partial(publishers.identities, node, topic))
@@ -90,8 +103,9 @@ class Input:
         silent_s = time.monotonic() - self._heard_s
         if silent_s > SILENT_S:
             who = ", ".join(publishers.names(self._node, self._topic)) or "none"
-            question = f"is its publisher running, is the topic right? Publishers there: {who}"
-            yield Notice(Level.WARN, NO_INPUT, f"no samples on {self._name} for {SILENT_S:.0f} s: {question}", 1, 0)
+            nothing = f"no {self._words.what} on {self._name} for {SILENT_S:.0f} s"
+            text = f"{nothing}: {self._words.question} Publishers there: {who}"
+            yield Notice(Level.WARN, self._words.silent, text, 1, 0)
 
     def _misfit(self) -> Iterator[Notice]:
         if self._refused:
@@ -99,7 +113,7 @@ class Input:
                 "let it publish reliable and transient local; for a driver, node.input_reliable: false asks for less"
             )
             text = f"a publisher of {self._name} offers less {self._refused} than is asked for: {way_out}"
-            yield Notice(Level.WARN, "incompatible_qos", text, 1, 0)
+            yield Notice(Level.WARN, self._words.misfit, text, 1, 0)
 
     @property
     def _name(self) -> str:

@@ -17,7 +17,7 @@ from pdr_core.params import Params
 from pdr_core.records import Notice
 from pdr_nodes.declare import read_params
 from pdr_nodes.idle import IdleWatch
-from pdr_nodes.input import Input
+from pdr_nodes.input import Input, Words
 from pdr_nodes.notice_board import NoticeBoard
 from pdr_nodes.qos import OWN
 from pdr_nodes.sole_output import SoleOutput
@@ -109,8 +109,20 @@ class ManagedNode(LifecycleNode):
                 self._idle.fed()
             take(block)
 
-        self._inputs.append(Input(self, kind, topic, qos, block, fed, restarts_anew))
-        self.part(self._inputs[-1])
+        self._add_input(Input(self, kind, topic, qos, block, fed, restarts_anew))
+
+    def side_input(
+        self, kind: type, topic: str, block: Callable, take: Callable, qos: QoSProfile, words: Words
+    ) -> None:
+        """Give the messages of a driver's topic that comes beside the samples: alone, it does not keep a stream alive.
+
+        Named before the samples, it is given before them.
+        """
+        self._add_input(Input(self, kind, topic, qos, block, take, restarts_anew=True, words=words))
+
+    def _add_input(self, topic: Input) -> None:
+        self._inputs.append(topic)
+        self.part(topic)
 
     def output(self, kind: type, topic: str, qos: QoSProfile = OWN) -> Any:
         """Return a publisher that is silent unless the node is active."""

@@ -9,8 +9,9 @@ from pdr_core.records import Level, Notice
 from pdr_nodes.qos import STATUS
 
 PERIOD_S = 1.0
-NO_INPUT = "no_input"  # the kind of notice that also the end of a recording brings
+NO_INPUT, NO_FIELD = "no_input", "no_field"  # the kinds of notice that also the end of a recording brings
 LIFECYCLE, STREAMS = "lifecycle", "streams"
+ORIENTATION = "orientation"  # what is said of it is not said of the track
 Source = Callable[[], list[Notice]]
 
 

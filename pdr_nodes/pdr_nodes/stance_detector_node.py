@@ -1,4 +1,7 @@
-"""Node `stance_detector`: samples in (`imu/data`), samples with their verdict out (`stance`)."""
+"""Node `stance_detector`: samples in (`imu/data`), samples with their verdict out (`stance`).
+
+With a magnetometer the samples come with their field (`imu/marg`).
+"""
 
 from sensor_msgs.msg import Imu
 
@@ -6,8 +9,8 @@ from pdr_core.params import Params
 from pdr_core.records import ImuBlock, StanceBlock, length
 from pdr_core.stance import StanceDetection
 from pdr_core.warmup import warm_up
-from pdr_msgs.msg import StanceImu
-from pdr_nodes.convert import imu_block, stance_message
+from pdr_msgs.msg import MargSample, StanceImu
+from pdr_nodes.convert import imu_block, marg_block, stance_message
 from pdr_nodes.managed import ManagedNode
 from pdr_nodes.run import run
 
@@ -24,7 +27,10 @@ class StanceDetectorNode(ManagedNode):
         self._stance = StanceDetection(params.stance, params.place, params.detectors)
         self._frame_id = params.node.foot_frame
         self._verdicts = self.output(StanceImu, "stance")
-        self.input(Imu, "imu/data", imu_block, self._take)
+        if params.node.magnetometer:
+            self.input(MargSample, "imu/marg", marg_block, self._take)
+        else:
+            self.input(Imu, "imu/data", imu_block, self._take)
         self.when_idle(params.node.idle_s, lambda: self._publish(self._stance.finish()))
         intervals = "one sample interval" if params.stance.time_gate == "none" else "two sample intervals"
         self.get_logger().info(f"verdicts follow within {self._stance.latency_s:.4f} s and {intervals}")

@@ -13,8 +13,9 @@ from pdr_core.warmup import warm_up
 from pdr_msgs.msg import FilterHealth, HeadingObservation, StanceImu, StepEvent
 from pdr_msgs.msg import Handover as HandoverMessage
 from pdr_msgs.srv import ResetEstimate
-from pdr_nodes.convert import health_message, odometry_message, pose_estimate, stance_block, step_message
+from pdr_nodes.convert import odometry_message, pose_estimate, stance_block, step_message
 from pdr_nodes.convert_feedback import handover_message, heading_observation
+from pdr_nodes.convert_health import health_message
 from pdr_nodes.hearing import Hearing
 from pdr_nodes.managed import ManagedNode
 from pdr_nodes.patience import Patience

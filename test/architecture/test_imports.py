@@ -55,7 +55,7 @@ MAY_IMPORT = {
     "pdr_nodes.run": f"{BASE} rclpy pdr_nodes.managed pdr_core.recording",
     "pdr_nodes.devices": f"{BASE} pdr_core.recording pdr_core.simulation serial",
     "pdr_nodes.imu_driver_node": f"{NODE} pdr_nodes.devices",
-    "pdr_nodes.imu_ingestion_node": f"{NODE} pdr_core.intake",
+    "pdr_nodes.imu_ingestion_node": f"{NODE} pdr_core.pipeline",  # intake and orientation meet there
     "pdr_nodes.stance_detector_node": f"{NODE} pdr_core.stance",
     "pdr_nodes.zupt_ekf_node": f"{NODE} pdr_core.eskf",
     # commands see stages through the pipeline only, and of the nodes what reads their messages

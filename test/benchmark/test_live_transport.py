@@ -1,5 +1,7 @@
 """How long a sample is under way through the running nodes, and what each node costs, at three rates. (--full)
 
+At two of them also with a magnetometer.
+
 A verdict needs later samples: that is the delay of the algorithm. The core alone, fed sample by sample, tells by the
 stamps which sample each estimate waited for. From that sample's publication to the arrival of the estimate it is
 transport: the work of the nodes and the messages between them. Both ends are the middleware's own times.
@@ -24,15 +26,23 @@ full = pytest.mark.skipif(os.environ.get("PDR_FULL") != "1", reason="long figure
 
 @full
 @pytest.mark.usefixtures("ros_environment")
-@pytest.mark.parametrize("rate_hz", [200.0, 400.0, 1000.0])
-def test_no_sample_is_lost_on_the_way_to_the_filter(rate_hz: float, tmp_path: Path) -> None:
-    params = changed(Params(), "node", input_reliable=True)
+@pytest.mark.parametrize(
+    ("rate_hz", "magnetometer"), [(200.0, False), (200.0, True), (400.0, False), (1000.0, False), (1000.0, True)]
+)
+def test_no_sample_is_lost_on_the_way_to_the_filter(rate_hz: float, magnetometer: bool, tmp_path: Path) -> None:
+    params = changed(Params(), "node", input_reliable=True, magnetometer=magnetometer)
     params = changed(params, "simulation", walk="straight", walk_length_m=LENGTH_M, sample_rate_hz=rate_hz)
+    params = changed(params, "simulation", magnetometer=magnetometer)
     raw = simulated_walk(params.simulation, params.place).imu
     seconds = float(raw.stamp_ns[-1] - raw.stamp_ns[0]) / 1e9
     waited_for = newest_stamps(raw, params)
     run = LiveRun(params, length(raw), seconds, tmp_path)
-    show(run, rate_hz, len(run.ear.arrived) / seconds, delays_ms(run.ear, waited_for))
+    show(
+        run,
+        f"{rate_hz:.0f} Hz{', magnetometer' if magnetometer else ''}",
+        len(run.ear.arrived) / seconds,
+        delays_ms(run.ear, waited_for),
+    )
     assert len(run.ear.sent) == length(raw)
     assert run.ear.taken == length(raw)
     assert len(run.ear.arrived) / seconds <= 1.01 * params.node.odom_rate_hz
@@ -60,9 +70,9 @@ def delays_ms(ear: Ear, waited_for: dict[int, int]) -> dict[str, Floats]:
     return {name: np.array(delay_ns) / 1e6 for name, delay_ns in delays.items()}
 
 
-def show(run: LiveRun, rate_hz: float, odometry_hz: float, delays: dict[str, Floats]) -> None:
+def show(run: LiveRun, what: str, odometry_hz: float, delays: dict[str, Floats]) -> None:
     samples = f"{len(run.ear.sent)} samples, {run.ear.taken} of them in the filter"
-    print(f"\n{rate_hz:.0f} Hz: {samples}, odometry at {odometry_hz:.0f} Hz")
+    print(f"\n{what}: {samples}, odometry at {odometry_hz:.0f} Hz")
     for name, delay_ms in delays.items():
         p50, p99 = np.percentile(delay_ms, [50, 99])
         print(f"  {name:<24}p50 {p50:7.2f} ms   p99 {p99:7.2f} ms")

@@ -2,16 +2,19 @@ import numpy as np
 import pytest
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, MagneticField
 
 from pdr_core.params import SimulationParams
-from pdr_core.records import length
+from pdr_core.records import joined, length
 from pdr_core.simulation import simulated_walk
 from pdr_msgs.srv import SetGyroPower, SetSampleRate
+from pdr_nodes import imu_driver_node
+from pdr_nodes.convert import field_block
+from pdr_nodes.devices.source import Source
 from pdr_nodes.imu_driver_node import LOOK_S, ImuDriverNode
 from pdr_nodes.throttle import ON_THEIR_WAY
 from support.bench import Bench
-from support.walks import stamps, straight_walk, write_csv
+from support.walks import magnetic_walk, stamps, straight_walk, write_csv
 
 SIMULATED = {"simulation__walk": "still", "simulation__sample_rate_hz": 200.0, "driver__rate_factor": 1000.0}
 SAMPLES = 1200  # six seconds
@@ -176,6 +179,39 @@ def test_the_rate_holds_from_the_stated_stamp_on(driver):
     assert 200 <= since < len(at_ns) - 100
     np.testing.assert_allclose(np.diff(at_ns[: since + 1]), 5_000_000, atol=2)
     np.testing.assert_allclose(np.diff(at_ns[since:]), 20_000_000, atol=2)
+
+
+def magnetic_driver(monkeypatch, **params):
+    """A bench with a driver whose device has a magnetometer."""
+    source = Source("magnetic", iter([magnetic_walk(1)]), None)
+    monkeypatch.setattr(imu_driver_node, "open_device", lambda _params, _start_ns: source)
+    return Bench(ImuDriverNode, driver__rate_factor=1000.0, **params)
+
+
+def test_the_field_goes_out_with_its_sample_also_while_the_gyro_is_off(monkeypatch):
+    walk = magnetic_walk(1)
+    with magnetic_driver(monkeypatch, node__magnetometer=True) as bench:
+        bench.hear(Imu, "imu/data_raw")
+        bench.until(lambda: bench.node._samples.get_subscription_count() == 1, "the subscriber of the samples")
+        assert bench.node.work() == LOOK_S
+        assert f"/{bench.namespace}/imu/mag: 0 of 1 are there" in bench.node._notices()[0].text
+        fields, driver = bench.hear(MagneticField, "imu/mag"), Driver(bench)
+        driver.work_until(200)
+        assert bench.call(SetGyroPower, "set_gyro_power", powered=False).success
+        driver.work_to_the_end()
+        bench.until(lambda: len(fields) == length(walk), "the last fields")
+    assert not measured(driver.samples)[-100:].any()
+    assert {m.header.frame_id for m in fields} == {"imu_link"}
+    heard = joined([field_block(m) for m in fields])
+    np.testing.assert_array_equal(heard.stamp_ns, walk.stamp_ns)
+    np.testing.assert_array_equal(heard.field_tesla, walk.field_tesla)
+    np.testing.assert_array_equal(heard.field_sd_tesla, walk.field_sd_tesla)
+
+
+def test_a_magnetometer_that_nobody_knows_of_is_not_published(monkeypatch):
+    with magnetic_driver(monkeypatch) as bench:
+        Driver(bench).work_until(10)
+        assert bench.me.count_publishers("imu/mag") == 0
 
 
 @pytest.mark.parametrize("rate", [0.0, -1.0, float("nan")])

@@ -7,12 +7,15 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu
 
 from pdr_core.intake.stamp_faults import NOTICES, Fault
-from pdr_core.records import Level
+from pdr_core.maths import quaternion
+from pdr_core.params import Params
+from pdr_core.pipeline import OrientedIntake
+from pdr_core.records import Level, length
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
 from pdr_nodes.notice_board import notices_from
-from pdr_nodes.qos import STATUS
+from pdr_nodes.qos import OWN, STATUS
 from support.bench import Bench
-from support.walks import BEGIN_NS, imu_messages, stamps, still
+from support.walks import BEGIN_NS, imu_messages, stamps, still, straight_walk
 
 FOREIGN = {
     kind.name: QoSProfile(depth=10, reliability=kind)
@@ -42,7 +45,21 @@ def test_any_driver_connects(reliability):
         out, _ = driven(bench, imu_messages(block), 100, FOREIGN[reliability])
     assert stamps(out) == block.stamp_ns.tolist()
     assert {m.header.frame_id for m in out} == {"foot"}
-    assert all(m.orientation_covariance[0] == -1.0 for m in out)
+
+
+def test_the_orientation_of_each_sample_goes_out_with_it():
+    walk = straight_walk(2)
+    with Bench(ImuIngestionNode) as bench:
+        out, _ = driven(bench, imu_messages(walk.imu), length(walk.imu), OWN)
+    expected = OrientedIntake(Params()).run(walk.imu)[1]
+    sent = [[m.orientation.x, m.orientation.y, m.orientation.z, m.orientation.w] for m in out]
+    np.testing.assert_array_equal(sent, expected.quat_xyzw)
+    covariances = np.array([m.orientation_covariance for m in out])
+    np.testing.assert_array_equal(covariances, expected.attitude_covariance.reshape(-1, 9))
+    assert (covariances[:, ::4] > 0.0).all()
+    ends = np.array(sent[-1]), walk.motion.quat_xyzw[-1]
+    up = [quaternion.matrix(xyzw)[2] for xyzw in ends]  # seen from the foot
+    np.testing.assert_allclose(up[0], up[1], atol=0.02)
 
 
 def with_faults(good):

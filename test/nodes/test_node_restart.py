@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, MagneticField
 
 from pdr_core.records import joined
-from pdr_msgs.msg import StanceImu
-from pdr_nodes.convert import nav_block
+from pdr_msgs.msg import MargSample, StanceImu
+from pdr_nodes.convert import marg_block, nav_block
 from support.bench import Bench
 from support.processes import node_process
-from support.walks import imu_messages, stamps, straight_walk
+from support.walks import field_messages, imu_messages, magnetic_walk, stamps, straight_walk
 
 STRIDES, STRIDE_M, HALF = 4, 1.2, 650  # samples: the second stride is behind, the third has not begun
 CHAIN = ("imu_ingestion", "stance_detector", "zupt_ekf")
@@ -60,3 +60,24 @@ def test_no_step_is_walked_twice(heard):
     end = heard.odometry[-1].pose.pose.position
     assert end.x == pytest.approx(STRIDES * STRIDE_M, rel=0.05)
     assert end.y == pytest.approx(0.0, abs=0.2)
+
+
+def test_an_ingestion_that_is_killed_and_started_again_pairs_every_field(tmp_path):
+    space, walk = "restart_field", magnetic_walk(STRIDES)
+    samples, fields = imu_messages(walk), field_messages(walk)
+    params = RELIABLE | {"node__magnetometer": True}
+    with Bench(namespace=space) as bench:
+        margs = bench.hear(MargSample, "imu/marg")
+        with node_process("imu_ingestion", space, tmp_path / "first.log", **params):
+            mag, imu = bench.publisher(MagneticField, "imu/mag"), bench.publisher(Imu, "imu/data_raw")
+            bench.feed(mag, fields[:HALF])
+            bench.feed(imu, samples[:HALF])
+            bench.until(lambda: len(margs) >= HALF - 10, "the first half")
+        bench.feed(imu, samples[HALF:])
+        bench.feed(mag, fields[HALF:])
+        with node_process("imu_ingestion", space, tmp_path / "again.log", **params):
+            bench.until(lambda: stamps(m.imu for m in margs[-1:]) == stamps(samples[-1:]), "the last sample")
+    latest = {int(block.stamp_ns[0]): block for block in map(marg_block, margs)}
+    block = joined([latest[stamp] for stamp in stamps(samples)])
+    np.testing.assert_array_equal(block.field_sd_tesla >= 0.0, walk.field_sd_tesla >= 0.0)
+    np.testing.assert_array_equal(block.field_tesla, walk.field_tesla)

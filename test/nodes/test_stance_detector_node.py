@@ -6,10 +6,11 @@ from pdr_core.intake import Ingestion
 from pdr_core.params import Params
 from pdr_core.records import joined, length
 from pdr_core.stance import StanceDetection
-from pdr_msgs.msg import StanceImu
+from pdr_msgs.msg import MargSample, StanceImu
+from pdr_nodes.convert import marg_message, stance_block
 from pdr_nodes.stance_detector_node import StanceDetectorNode
 from support.bench import Bench
-from support.walks import imu_messages, stamps, still, straight_walk
+from support.walks import imu_messages, magnetic_walk, stamps, still, straight_walk
 
 STRIDES = 3
 
@@ -69,3 +70,22 @@ def test_a_verdict_follows_from_its_statistic_and_stays_finite(verdicts):
     assert np.isfinite(numbers).all()
     standing = np.array([m.stance for m in verdicts[0]])
     assert (numbers[standing, 0] <= numbers[standing, 1]).all()
+
+
+def test_with_a_magnetometer_each_verdict_has_the_field_of_its_sample():
+    params, walk = Params(), Ingestion(Params().intake).run(magnetic_walk(1))
+    stance = StanceDetection(params.stance, params.place)
+    expected = joined([stance.run(walk), stance.finish()])
+    with Bench(StanceDetectorNode, node__idle_s=0.3, node__magnetometer=True) as bench:
+        heard = bench.hear(StanceImu, "stance")
+        publisher = bench.publisher(MargSample, "imu/marg")
+        bench.feed(publisher, [marg_message(walk, i, "foot") for i in range(length(walk))])
+        bench.until(lambda: len(heard) >= length(walk), "the verdict on every sample")
+    block = joined([stance_block(m) for m in heard])
+    for column, wanted in zip(block.imu, expected.imu, strict=True):
+        np.testing.assert_array_equal(column, wanted)
+    np.testing.assert_array_equal(block.stance, expected.stance)
+    assert (block.imu.field_sd_tesla < 0.0).any()
+    assert all(
+        m.magnetic_field.header == m.imu.header for m in heard if m.magnetic_field.magnetic_field_covariance[0] > 0
+    )

@@ -29,6 +29,12 @@ def message_of(stamp_ns: int, gyro, accel) -> Imu:
     return message
 
 
+def field_of(message: Imu, tesla: float) -> MagneticField:
+    field = MagneticField(header=message.header)
+    field.magnetic_field.x, field.magnetic_field.y, field.magnetic_field.z = 2e-5, tesla, -4e-5
+    return field
+
+
 def main() -> None:
     recording, topic, reliability, speed = sys.argv[1:]
     (sensor,) = open_recording(Path(recording)).sensors.values()
@@ -50,7 +56,7 @@ def main() -> None:
             time.sleep(max(0.0, begin_s + (stamp_ns - begin_ns) / 1e9 / float(speed) - time.monotonic()))
             message = message_of(stamp_ns, gyro, accel)
             publisher.publish(message)
-            mag.publish(MagneticField(header=message.header))
+            mag.publish(field_of(message, (stamp_ns - begin_ns) * 1e-18))  # tells the stamps apart
             odometry.publish(Odometry(header=message.header))
         diagnostics.publish(DiagnosticArray(status=[wheels]))
     print("done", flush=True)

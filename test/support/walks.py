@@ -5,13 +5,15 @@ from pathlib import Path
 import numpy as np
 
 from pdr_core.intake import Ingestion
+from pdr_core.maths import quaternion
 from pdr_core.params import Params, SimulationParams
 from pdr_core.records import ImuBlock, Stamps, StanceBlock, inertial_block, joined, length
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.stance import StanceDetection
-from pdr_nodes.convert import imu_message, stance_message
+from pdr_nodes.convert import field_message, imu_message, stance_message
 
 BEGIN_NS = 1_700_000_000_000_000_000
+EARTH_FIELD_TESLA = np.array([0.0, 2.1e-5, -4.3e-5])  # east, north, up: in the middle of Europe
 COLUMNS = "t,wx,wy,wz,ax,ay,az"
 COLUMN_MAP = """name: test
 time: {column: t, unit: ns}
@@ -26,6 +28,18 @@ def straight_walk(strides: int, rate_hz: float = 100.0) -> SimulatedWalk:
     """Return a walk along x that stands for three seconds at both ends."""
     params = SimulationParams(walk="straight", walk_length_m=1.2 * strides, sample_rate_hz=rate_hz)
     return simulated_walk(params, start_ns=BEGIN_NS)
+
+
+def magnetic_walk(strides: int, rate_hz: float = 100.0) -> ImuBlock:
+    """Return a walk whose sensor has a magnetometer, with noise, that leaves out every seventh sample."""
+    walk = straight_walk(strides, rate_hz)
+    n = length(walk.imu)
+    R_world_from_foot = np.array([quaternion.matrix(xyzw) for xyzw in walk.motion.quat_xyzw])
+    field = EARTH_FIELD_TESLA @ R_world_from_foot + 3e-7 * np.random.default_rng(1).standard_normal((n, 3))
+    there = np.arange(n) % 7 != 3
+    return walk.imu._replace(
+        field_tesla=np.where(there[:, None], field, 0.0), field_sd_tesla=np.where(there, 3e-7, -1.0)
+    )
 
 
 def walk_with_dips(strides: int) -> tuple[ImuBlock, Stamps]:
@@ -54,6 +68,11 @@ def judged(raw: ImuBlock) -> StanceBlock:
 def imu_messages(block: ImuBlock) -> list:
     """Return the samples as a driver sends them."""
     return [imu_message(block, i, "imu_link") for i in range(length(block))]
+
+
+def field_messages(block: ImuBlock) -> list:
+    """Return the magnetic fields of the samples as a driver sends them: none where a sample has none."""
+    return [field_message(block, i, "imu_link") for i in np.flatnonzero(block.field_sd_tesla >= 0.0)]
 
 
 def stance_messages(block: StanceBlock) -> list:

@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 
 from pdr_bringup_scripts.live_recording import messages
+from pdr_core.params import Params
+from pdr_core.pipeline import FootInertial
 from pdr_core.recording import open_recording
 from pdr_core.recording.tum import read_tum
-from pdr_core.records import joined
+from pdr_core.records import joined, length
+from pdr_nodes.convert import stance_block
 from support import foreign_driver
 from support.processes import END_S, pdr, start
 from support.walks import straight_walk, write_csv
@@ -96,6 +99,34 @@ def test_the_magnetometer_is_recorded(run):
     assert heard[0].header.frame_id == "somebodys_imu"
 
 
+def test_each_sample_had_the_field_that_is_recorded_with_it(run):
+    (sensor,) = open_recording(run[0] / "recording").sensors.values()
+    alone = FootInertial(Params())
+    recorded = joined([*(alone.run(piece).judged for piece in sensor.pieces()), alone.finish().judged]).imu
+    live = joined([stance_block(m) for m in messages(run[0] / "recording", "stance")]).imu
+    np.testing.assert_array_equal(live.stamp_ns, recorded.stamp_ns)
+    np.testing.assert_array_equal(live.field_tesla, recorded.field_tesla)
+    assert np.mean(live.field_sd_tesla >= 0.0) > 0.9
+
+
+def test_a_magnetometer_that_says_nothing_is_told(tmp_path):
+    params = tmp_path / "mine.yaml"
+    walk = "{walk: straight, walk_length_m: 2.4, sample_rate_hz: 100.0}"
+    params.write_text(f"/**: {{ros__parameters: {{driver: {{rate_factor: 4.0}}, simulation: {walk}}}}}\n")
+    command = [sys.executable, "-m", "pdr_nodes.imu_driver_node", "--ros-args", "--params-file", str(params)]
+    driver = subprocess.Popen(command)
+    try:
+        answer = pdr("live", "--mag", "/imu/mag", "--duration", 8, "--out", tmp_path / "out")
+    finally:
+        driver.kill()
+        driver.wait(END_S)
+    assert answer.returncode == 0, answer.stderr
+    assert "no messages on /imu/mag: this walk is estimated without the magnetic field" in answer.stderr
+    (sensor,) = open_recording(tmp_path / "out" / "recording").sensors.values()
+    verdicts = list(messages(tmp_path / "out" / "recording", "stance"))
+    assert len(verdicts) == length(joined(list(sensor.pieces()))) > 500
+
+
 def test_nothing_to_hear_is_one_sentence(tmp_path):
     answer = pdr("live", "--imu", "/nowhere", "--duration", 0.5, "--out", tmp_path / "out")
     assert (answer.returncode, answer.stdout) == (2, "")
@@ -130,6 +161,7 @@ def test_a_driver_of_ours_is_started_and_ends_the_run(tmp_path):
         (("--imu", "/imu/data", "--namespace", "two feet"), "no namespace"),
         (("--imu", "my imu"), "no ROS topic"),
         (("--imu", "/imu", "--mag", "imu"), "cannot be both"),
+        (("--mag", "/pdr/imu/mag"), "a topic of our own nodes"),
         (("--driver", "replayed"), "driver.recording"),
         (("--duration", "inf"), "--duration inf"),
         (("--duration", "0"), "--duration"),

@@ -9,6 +9,7 @@ def demo(
     out: Path = typer.Option(None, "--out", "-o", help="folder for recording, trajectory, result and report"),
     length: float = typer.Option(24.0, help="length of the simulated walk [m]"),
     rate: float = typer.Option(1.0, help="speed: 2 walks twice as fast as real"),
+    magnetometer: bool = typer.Option(False, "--magnetometer", help="the simulated sensor has a magnetometer too"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
 ) -> None:
     """Walk with a simulated sensor through all nodes, live, and see how far off the estimate is.
@@ -25,5 +26,7 @@ def demo(
     chosen = load_params(params) if params else Params()
     chosen = changed(chosen, "driver", device="simulated", rate_factor=rate)
     chosen = changed(chosen, "simulation", walk_length_m=length)
+    if magnetometer:
+        chosen = changed(changed(chosen, "simulation", magnetometer=True), "node", magnetometer=True)
     folder = out or new_run_folder("demo")
     show_result(live_run(chosen, folder, private_domain(), Terminal()), folder)

@@ -11,7 +11,7 @@ DRIVERS = "a driver of ours to start for that topic: simulated, or replayed, wit
 
 def live(
     imu: str = typer.Option("/imu/data_raw", help="topic of the driver: sensor_msgs/Imu, raw, 100 Hz or more"),
-    mag: str = typer.Option("", help="topic of its sensor_msgs/MagneticField: recorded as imu/mag, not used otherwise"),
+    mag: str = typer.Option("", help="topic of its magnetometer: sensor_msgs/MagneticField, paired with it by stamp"),
     driver: str = typer.Option("none", help=DRIVERS),
     out: Path = typer.Option(None, "--out", "-o", help="folder for recording, trajectory, result and report"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
@@ -34,8 +34,10 @@ def live(
     from pdr_core.params_file import load_params
 
     chosen, own_driver = load_params(params) if params else Params(), driver != "none"
+    if chosen.node.magnetometer and not mag:
+        raise Problem("node.magnetometer is true: say by --mag on which topic the magnetometer is")
     if own_driver:
-        chosen = changed(chosen, "driver", device=driver)
+        chosen = changed(changed(chosen, "driver", device=driver), "simulation", magnetometer=bool(mag))
     if driver == "replayed" and not chosen.driver.recording:
         raise Problem("--driver replayed needs driver.recording in a file of --params, or use `pdr replay RECORDING`")
     home = checked_namespace(namespace)

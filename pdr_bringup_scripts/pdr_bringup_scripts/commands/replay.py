@@ -20,7 +20,7 @@ def replay(
     """
     from pdr_bringup_scripts.chain import checked_namespace
     from pdr_bringup_scripts.live import live_run
-    from pdr_bringup_scripts.offline import only_sensor
+    from pdr_bringup_scripts.offline import has_magnetometer, only_sensor
     from pdr_bringup_scripts.run_folder import new_run_folder, show_result
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.params import Params, changed
@@ -31,6 +31,7 @@ def replay(
     chosen = load_params(params) if params else Params()
     choice = {"device": "replayed", "recording": str(recording.resolve()), "rate_factor": rate, "sensor": source.name}
     choice["columns"] = str(columns.resolve()) if columns else ""
+    chosen = changed(chosen, "node", magnetometer=has_magnetometer(source))
     home = checked_namespace(namespace)
     folder = out or new_run_folder(f"replay-{recording.stem}")
     result = live_run(changed(chosen, "driver", **choice), folder, None, Terminal(), source, home)

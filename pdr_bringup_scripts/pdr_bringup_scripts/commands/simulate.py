@@ -17,6 +17,7 @@ def simulate(
     sensor: str = typer.Option(
         None, help="how good the sensor is: ideal, consumer, gui_table_1, gui_table_1_deg or qiu_table_1"
     ),
+    magnetometer: bool = typer.Option(None, "--magnetometer", help="the sensor has a magnetometer too"),
     seed: int = typer.Option(None, help="seed of the noise: the same seed, the same walk"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`; the options come before it"),
     force: bool = typer.Option(False, "--force", help="replace what has that name already"),
@@ -34,7 +35,7 @@ def simulate(
     chosen = load_params(params) if params else Params()
     wanted = {
         "motion": motion, "walk": walk, "walk_length_m": length,
-        "sample_rate_hz": rate, "sensor_model": sensor, "seed": seed,
+        "sample_rate_hz": rate, "sensor_model": sensor, "magnetometer": magnetometer, "seed": seed,
     }  # fmt: skip
     given = {name: value for name, value in wanted.items() if value is not None}
     session = simulated_session(chosen, given)

@@ -26,5 +26,10 @@ class OrientedIntake:
 
     @property
     def notices(self) -> list[Notice]:
-        """What was wrong so far."""
-        return self._intake.notices + self._orientation.notices
+        """What was wrong with the samples so far."""
+        return self._intake.notices
+
+    @property
+    def orientation_notices(self) -> list[Notice]:
+        """What was wrong with the orientation so far, which no estimate of the track is made from."""
+        return self._orientation.notices
