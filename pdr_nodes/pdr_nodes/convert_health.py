@@ -30,5 +30,8 @@ def health_message(
     message.accel_bias = vector(health.accel_bias_mps2)
     message.accel_bias_stddev = vector(health.accel_bias_sd_mps2)
     message.gravity = health.gravity_mps2
+    message.field_use = health.field_use.value
+    message.north = health.north_rad
+    message.north_stddev = health.north_sd_rad
     message.notices = [notice.text for notice in notices]
     return message

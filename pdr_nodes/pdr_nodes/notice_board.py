@@ -43,9 +43,18 @@ class NoticeBoard:
         """Log what was not there a moment ago."""
         for notice in notices:
             if notice.kind not in self._told:
-                log = self._node.get_logger()
-                (log.error if notice.level is Level.ERROR else log.warning)(notice.text)
+                self._log(notice)
         self._told = {notice.kind for notice in notices}
+
+    def _log(self, notice: Notice) -> None:
+        """Log a notice; rclpy wants a place in the code for each severity."""
+        log = self._node.get_logger()
+        if notice.level is Level.ERROR:
+            log.error(notice.text)
+        elif notice.level is Level.WARN:
+            log.warning(notice.text)
+        else:
+            log.info(notice.text)
 
 
 def status(name: str, notices: list[Notice], message_without: str) -> DiagnosticStatus:
