@@ -18,7 +18,6 @@ LARGEST_TURN_RAD = 2.0  # in a window
 FEWEST = 50  # pairs
 BIAS_WEIGHT = 0.5  # of one pair: a gyro bias of 0.05 rad/s counts like the noise of a field
 SD_MAX_RAD = 0.0087  # 0.5 deg
-UNEXPLAINED_MAX = 0.1  # of the square of the changes
 
 
 class Axes(NamedTuple):
@@ -52,8 +51,7 @@ def found_axes(imu: ImuBlock, fields: Floats) -> Axes | None:
     found = least_squares(residual, start, loss="soft_l1", f_scale=scale)
     rest = mismatch(pairs, turned(found.x[:3]) @ R, found.x[3:])
     covariance = inverse(found.jac.T @ found.jac) * deviation(rest) ** 2 * max(map(repetition, rest.T))
-    unexplained = np.median((rest**2).sum(axis=1)) / np.median(((pairs.after - pairs.before) ** 2).sum(axis=1))
-    if np.linalg.eigvalsh(covariance[:3, :3])[-1] > SD_MAX_RAD**2 or unexplained > UNEXPLAINED_MAX:
+    if np.linalg.eigvalsh(covariance[:3, :3])[-1] > SD_MAX_RAD**2:
         return None
     return Axes(turned(found.x[:3]) @ R, covariance[:3, :3])
 

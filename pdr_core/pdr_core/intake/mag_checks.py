@@ -24,7 +24,7 @@ def check_amount(imu: ImuBlock) -> None:
     stamps_ns = imu.stamp_ns[imu.field_sd_tesla >= 0.0]
     if not len(stamps_ns):
         raise CalibrationError(
-            "there is no magnetic field: record imu/mag too, or name the field in the column map of the recording"
+            "there is no magnetic field: record imu/mag too, or name its columns in the column map, as mag"
         )
     lasted_s = float(stamps_ns.max() - stamps_ns.min()) / NANOSECONDS
     if len(stamps_ns) < FEWEST or lasted_s < SHORTEST_S:
