@@ -6,9 +6,11 @@ import pytest
 from pdr_core.bench.mocap_gait import study
 from pdr_core.bench.orientations import ORIENTATIONS
 from pdr_core.bench.trial import Walk
-from pdr_core.evaluation.mocap_gait import markers, true_strides_ns
+from pdr_core.evaluation.mocap_gait import gait_errors, markers, true_strides_ns
 from pdr_core.params import Params
+from pdr_core.pipeline import OrientedIntake
 from pdr_core.recording import open_recording
+from pdr_core.records import joined
 
 FEET = ("left_sensor", "right_sensor")
 STRIDES = 32
@@ -38,6 +40,15 @@ def test_our_filters_find_every_stride_and_how_long_it_is(studies, foot, method)
     assert len(found.length_error_m) >= 27
     assert abs(found.mean_percent) <= 1.0
     assert found.sd_m <= 0.03
+    assert np.degrees(found.pitch_rmse_rad) <= 4.0
+
+
+@pytest.mark.parametrize("foot", FEET)
+def test_the_orientation_that_the_ingestion_gives_needs_no_verdict(walks, foot):
+    chain = OrientedIntake(Params())
+    pieces = [chain.run(piece)[1] for piece in walks[foot].pieces] + [chain.finish()[1]]
+    attitude = joined(pieces)
+    found = gait_errors(markers(walks[foot].truth), attitude.stamp_ns, attitude.quat_xyzw, [])
     assert np.degrees(found.pitch_rmse_rad) <= 4.0
 
 

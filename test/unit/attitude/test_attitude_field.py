@@ -43,7 +43,7 @@ def test_the_residual_is_what_the_yaw_lacks(yaw_error_rad):
         (lambda m: 1.05 * m, False),
         (lambda m: 1.2 * m, True),
         (lambda m: 0.8 * m, True),
-        (lambda m: m + np.array([0.0, 0.0, 1.5e-5]), True),  # as strong, or nearly, but less steep
+        (lambda m: Rotation.from_euler("x", 0.2).apply(m), True),  # as strong, but less steep
     ],
 )
 def test_strength_and_dip_tell_a_disturbed_field_and_its_direction_does_not(change, disturbed):

@@ -165,9 +165,10 @@ def test_after_trouble_it_trusts_itself_less_and_comes_back(kind, trouble):
     assert np.arccos(np.clip(tilt[-RATE_HZ:, 2], -1, 1)).max() < np.radians(2.0)
 
 
+@pytest.mark.parametrize("turn_rad", [(0.9, -0.7, 0.3), (2.2, -2.1, 0.3)])
 @pytest.mark.parametrize("kind", [QuaternionFilter, UnjudgedQuaternionFilter])
-def test_a_sensor_that_is_kicked_aside_is_level_again_and_it_says_so(kind):
-    imu, aside = copied(IDEAL.imu), Rotation.from_rotvec([0.9, -0.7, 0.3])
+def test_a_sensor_that_is_kicked_aside_is_level_again_and_it_says_so(kind, turn_rad):
+    imu, aside = copied(IDEAL.imu), Rotation.from_rotvec(turn_rad)
     imu.gyro_radps[1700:], imu.accel_mps2[1700:] = (
         aside.apply(imu.gyro_radps[1700:]),
         aside.apply(imu.accel_mps2[1700:]),
@@ -215,6 +216,20 @@ def test_a_disturbed_field_turns_nothing_and_a_clean_one_tilts_nothing():
 def test_without_being_told_the_field_is_not_used():
     plain, fielded = (QuaternionFilter(Params()).run(judged_by(imu)) for imu in (IDEAL.imu, with_field(IDEAL.imu)))
     np.testing.assert_array_equal(plain.quat_xyzw, fielded.quat_xyzw)
+
+
+def test_unjudged_a_moment_that_looks_like_rest_counts_little_after_a_motion():
+    """Rest, a motion, and then ten samples as long as gravity but turned: the shorter the memory, the more they tilt."""
+    n, tilted = 500, Rotation.from_euler("y", 0.1).apply([0.0, 0.0, 9.806])
+    accel = np.tile([0.0, 0.0, 9.806], (n, 1))
+    accel[400:490], accel[490:] = [0.0, 0.0, 30.0], tilted
+    imu = part(IDEAL.imu, 0, n)._replace(accel_mps2=accel, gyro_radps=np.zeros((n, 3)), gyro_sd_radps=np.full(n, 0.01))
+    tilts = []
+    for memory_s in (0.1, 0.0):
+        found = UnjudgedQuaternionFilter(changed(Params(), "attitude", motion_memory_s=memory_s)).run(imu)
+        tilts.append(Rotation.from_quat(found.quat_xyzw[-1]).magnitude())
+    assert tilts[1] > 1e-4
+    assert tilts[0] < 0.1 * tilts[1]
 
 
 def test_a_faster_sensor_is_not_believed_more():

@@ -66,6 +66,18 @@ def test_steps_are_those_of_the_error_state_filter():
         assert np.linalg.eigvalsh(one.displacement_covariance_m2).min() > 0.0
 
 
+def test_cutting_within_a_stance_that_cannot_be_changes_nothing():
+    """What has been looked at must not be counted again."""
+    judged = JUDGED._replace(stance=JUDGED.stance.copy(), zero_velocity_sd_mps=np.full(length(JUDGED), 0.01))
+    lifts = np.flatnonzero(np.diff(JUDGED.stance.astype(int)) == -1)
+    middle = int(lifts[3]) + 60
+    judged.stance[middle : middle + 18] = True
+    whole = run(judged, TRUE_ATTITUDE)
+    cut = run(judged, TRUE_ATTITUDE, pieces=range(middle - 5, middle + 25))
+    assert not whole[2].stands[middle : middle + 18].any()
+    np.testing.assert_array_equal(whole[0].position_m, cut[0].position_m)
+
+
 @pytest.mark.parametrize("pieces", [(5,), (1000, 1001, 1003), tuple(range(7, 4600, 211))])
 def test_cutting_anywhere_changes_nothing(pieces):
     attitude = QuaternionFilter(PARAMS).run(JUDGED)
