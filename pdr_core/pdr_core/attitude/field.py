@@ -1,11 +1,8 @@
 """The heading by the magnetic field: it should point where it pointed in the first rest.
 
-The azimuth of the field in the world frame, m = C(q) m_foot, is an angle that no tilt-compensated formula has to be
-written for; Qiu eq. 1 prints one with three arguments. A rotation t of the estimate moves it by
-
-    t_z - m_z (m_x t_x + m_y t_y) / (m_x^2 + m_y^2),
-
-so a steep field shows the tilt as heading; the innovation knows that. But the field corrects the heading alone: what
+The azimuth of the field in the world frame, m = C(q) m_foot, needs no tilt-compensated formula. How it moves with a
+rotation of the estimate is in `maths/magnetic.py`: a steep field shows the tilt as heading; the innovation knows that.
+But the field corrects the heading alone: what
 the gain would do to the tilt is left out, for gravity knows better. A field is disturbed, and not used, where it is
 stronger or weaker or steeper than in the first rest.
 """
@@ -16,22 +13,17 @@ from pdr_core.attitude.settings import Settings
 from pdr_core.attitude.sphere import rotation_jacobian, tangents
 from pdr_core.attitude.state import GYRO_BIAS, QUATERNION
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.magnetic import UP, azimuth_by_rotation, dip_rad
 from pdr_core.maths.quaternion import rows
 from pdr_core.maths.vector import Vector, norm, product
 from pdr_core.records import Floats
 
 
 @compiled
-def dip_rad(field: Vector) -> float:
-    """Return how far a field (3,) in the world frame points below the horizon."""
-    return np.arctan2(-field[2], np.hypot(field[0], field[1]))
-
-
-@compiled
 def disturbed(field: Vector, reference: Floats, s: Settings) -> bool:
     """Return whether a field in the world frame is not that of the first rest, however it is turned."""
     strength = abs(norm(field) / norm(reference) - 1.0)
-    return strength > s.field_norm_share or abs(dip_rad(field) - dip_rad(reference)) > s.field_dip_rad
+    return strength > s.field_norm_share or abs(dip_rad(UP, field) - dip_rad(UP, reference)) > s.field_dip_rad
 
 
 @compiled
@@ -45,9 +37,7 @@ def residual(field: Vector, reference: Floats) -> Floats:
 @compiled
 def jacobian(quat_xyzw: Floats, field: Vector) -> Floats:
     """Return H, (1, 7), at a field in the world frame."""
-    horizontal2 = field[0] ** 2 + field[1] ** 2
-    by_rotation = np.array([[-field[2] * field[0] / horizontal2, -field[2] * field[1] / horizontal2, 1.0]])
-    return product(by_rotation, rotation_jacobian(quat_xyzw))
+    return product(np.array(azimuth_by_rotation(field)).reshape(1, 3), rotation_jacobian(quat_xyzw))
 
 
 @compiled

@@ -1,11 +1,7 @@
 """Absolute magnetic update: where the field is clean, its direction is a compass (Zhou eq. 10, matrix D, appendix A).
 
-With m the field of a stance in the world frame as the filter has it, the azimuth is alpha = atan2(m_y, m_x). A small
-attitude error e (R_true = Exp(e) R) changes m by e x m, and so
-
-    alpha_true - alpha = e_z - (m_z / m_h^2) (m_x e_x + m_y e_y),     m_h^2 = m_x^2 + m_y^2:
-
-H on the attitude error is [-m_z m_x / m_h^2, -m_z m_y / m_h^2, 1]. Zhou's D is [sin psi tan theta, -cos psi tan theta,
+With m the field of a stance in the world frame as the filter has it, and e the attitude error, R_true = Exp(e) R, the
+azimuth is off by e_z - (m_z / m_h^2) (m_x e_x + m_y e_y): that is H (`maths/magnetic.py`). Zhou's D is [sin psi tan theta, -cos psi tan theta,
 1]: so moves the Euler heading of the *foot* with the misalignment. But his measured heading psi_M is levelled by the
 same attitude, so it moves too, with the dip. What counts is the difference of both, as here; a test has it by finite
 differences.
@@ -22,9 +18,9 @@ Other updates correct C but not north itself (Schmidt's consider state).
 import numpy as np
 
 from pdr_core.eskf.error_state import ATTITUDE, SIZE
-from pdr_core.eskf.field_places import azimuth_rad, dip_rad
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.magnetic import UP, azimuth_by_rotation, azimuth_rad, dip_rad
 from pdr_core.maths.vector import Vector, norm, product
 from pdr_core.records import Floats
 
@@ -33,9 +29,8 @@ from pdr_core.records import Floats
 def H(field_tesla: Vector) -> Floats:  # noqa: N802  (its usual name)
     """Return the Jacobian (1, 16) of the azimuth of a field (world frame) beside north."""
     out = np.zeros((1, SIZE + 1))
-    steep = field_tesla[2] / (field_tesla[0] ** 2 + field_tesla[1] ** 2)
-    out[0, ATTITUDE], out[0, ATTITUDE + 1] = -steep * field_tesla[0], -steep * field_tesla[1]
-    out[0, ATTITUDE + 2], out[0, SIZE] = 1.0, -1.0
+    out[0, ATTITUDE : ATTITUDE + 3] = azimuth_by_rotation(field_tesla)
+    out[0, SIZE] = -1.0
     return out
 
 
@@ -68,7 +63,7 @@ def find(field_tesla: Vector, sd_rad: float, state: FilterState) -> None:
     """Take the field (world frame) of this stance for north: north = alpha_true + noise = alpha + H e + noise."""
     row = np.ascontiguousarray(H(field_tesla)[:, :SIZE])
     HP = product(row, state.P)
-    state.north_norm_tesla, state.north_dip_rad = norm(field_tesla), dip_rad(field_tesla)
+    state.north_norm_tesla, state.north_dip_rad = norm(field_tesla), dip_rad(UP, field_tesla)
     state.north_rad = azimuth_rad(field_tesla)
     state.north_cross[:] = HP.T
     state.north_ends[:] = product(row, state.cross)

@@ -15,6 +15,7 @@ import numpy as np
 from pdr_core.eskf.settings import FieldSettings
 from pdr_core.eskf.state import PLACES, FilterState
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.magnetic import UP, azimuth_rad, dip_rad
 from pdr_core.maths.vector import Vector, difference, norm
 from pdr_core.records import Floats
 
@@ -30,22 +31,10 @@ def visited(field_tesla: Vector, state: FilterState) -> bool:
     here = state.places % PLACES
     state.place_m[:] = state.position_m
     state.place_norm_tesla[here] = norm(field_tesla)
-    state.place_dip_rad[here] = dip_rad(field_tesla)
+    state.place_dip_rad[here] = dip_rad(UP, field_tesla)
     state.place_azimuth_rad[here] = azimuth_rad(field_tesla)
     state.places += 1
     return True
-
-
-@compiled
-def azimuth_rad(field_tesla: Vector) -> float:
-    """Return the azimuth of a field (world frame), counter-clockwise from x."""
-    return np.arctan2(field_tesla[1], field_tesla[0])
-
-
-@compiled
-def dip_rad(field_tesla: Vector) -> float:
-    """Return the angle of a field (world frame) below the horizon."""
-    return np.arctan2(-field_tesla[2], np.hypot(field_tesla[0], field_tesla[1]))
 
 
 @compiled

@@ -23,6 +23,8 @@ from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import Quaternion
 from pdr_core.maths.vector import Triple, Vector, cross, dot, norm
 
+UP = (0.0, 0.0, 1.0)  # in a world frame
+
 
 @compiled
 def up_in_body(quat_xyzw: Quaternion) -> Triple:
@@ -63,3 +65,19 @@ def magnetic_yaw_rad(quat_xyzw: Quaternion, field: Vector) -> float:
 def dip_rad(up: Vector, field: Vector) -> float:
     """Return by how much a field, (3,), points below the horizon; `up`, (3,) in the same axes, may have any length."""
     return np.arctan2(-dot(up, field), norm(cross(up, field)))
+
+
+@compiled
+def azimuth_rad(field: Vector) -> float:
+    """Return the azimuth of a field (3,) in a world frame, z up: counter-clockwise from x."""
+    return np.arctan2(field[1], field[0])
+
+
+@compiled
+def azimuth_by_rotation(field: Vector) -> Triple:
+    """Return how the azimuth of a field (3,) in a world frame moves with a small rotation e about the world's axes.
+
+    The rotation changes m by e x m, so the azimuth by e_z - (m_z / m_h^2) (m_x e_x + m_y e_y), m_h^2 = m_x^2 + m_y^2.
+    """
+    steep = field[2] / (field[0] ** 2 + field[1] ** 2)
+    return -steep * field[0], -steep * field[1], 1.0

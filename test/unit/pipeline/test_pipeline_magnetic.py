@@ -8,7 +8,7 @@ from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
 from pdr_core.records import FieldUse, joined, length, part
 from pdr_core.simulation import simulated_walk
-from pdr_core.simulation.imu_model import SENSOR_MODELS
+from pdr_core.simulation.sensors import SENSOR_MODELS
 from support.fields import earth_field, in_field
 
 AZIMUTH_RAD = 0.3
