@@ -4,7 +4,7 @@ import numpy as np
 
 from pdr_core.params import Params
 from pdr_core.pipeline import FootInertial, SmoothedFoot
-from pdr_core.records import inertial_block
+from pdr_core.records import ImuBlock
 
 DEFAULTS = Params()
 
@@ -15,7 +15,8 @@ def warm_up(params: Params = DEFAULTS, smooth: bool = False) -> None:
     The smoother, which does not run live, is warmed up where it is asked for.
     """
     one, gravity = np.zeros(1), np.array([[0.0, 0.0, 9.81]])
-    sample = inertial_block(np.zeros(1, np.int64), np.zeros((1, 3)), gravity, one, one)
+    zero = np.zeros((1, 3))
+    sample = ImuBlock(np.zeros(1, np.int64), zero, gravity, one, one, zero, one)
     pipeline = FootInertial(params)
     pipeline.run(sample)
     pipeline.finish()
