@@ -1,10 +1,10 @@
 """Absolute magnetic update: where the field is clean, its direction is a compass (Zhou eq. 10, matrix D, appendix A).
 
 With m the field of a stance in the world frame as the filter has it, and e the attitude error, R_true = Exp(e) R, the
-azimuth is off by e_z - (m_z / m_h^2) (m_x e_x + m_y e_y): that is H (`maths/magnetic.py`). Zhou's D is [sin psi tan theta, -cos psi tan theta,
-1]: so moves the Euler heading of the *foot* with the misalignment. But his measured heading psi_M is levelled by the
-same attitude, so it moves too, with the dip. What counts is the difference of both, as here; a test has it by finite
-differences.
+azimuth is off by e_z - (m_z / m_h^2) (m_x e_x + m_y e_y): that is H (`maths/magnetic.py`). Zhou's D is
+[sin psi tan theta, -cos psi tan theta, 1]: so moves the Euler heading of the *foot* with the misalignment. But his
+measured heading psi_M is levelled by the same attitude, so it moves too, with the dip. What counts is the difference
+of both, as here; a test has it by finite differences.
 
 Nobody knows where north lies in `odom`, whose x axis is where the foot first pointed. So north, the azimuth of the
 field, is the sixteenth state, with its covariances beside P: C with the errors, V its own. It begins as the first

@@ -219,7 +219,7 @@ def test_without_being_told_the_field_is_not_used():
 
 
 def test_unjudged_a_moment_that_looks_like_rest_counts_little_after_a_motion():
-    """Rest, a motion, and then ten samples as long as gravity but turned: the shorter the memory, the more they tilt."""
+    """Rest, a motion, then ten samples as long as gravity but turned: the shorter the memory, the more they tilt."""
     n, tilted = 500, Rotation.from_euler("y", 0.1).apply([0.0, 0.0, 9.806])
     accel = np.tile([0.0, 0.0, 9.806], (n, 1))
     accel[400:490], accel[490:] = [0.0, 0.0, 30.0], tilted
