@@ -67,7 +67,7 @@ class DedriftParams:
         source="Qiu eq. 24-26; measured on real walks: most of it comes with the shock of the heel",
     )
     stance_sd_mps: float = parameter(
-        0.05,
+        0.07,
         "a foot stands only where the detector says that it is so still",
         unit="m/s",
         bounds=(1e-3, 10.0),

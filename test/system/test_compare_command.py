@@ -82,7 +82,7 @@ def test_a_broken_file_does_not_lose_the_others(folder):
     assert [(row["recording"], row["gate"]) for row in found] == [("walk1", "none"), ("walk1", "kmeans")]
 
 
-@pytest.mark.parametrize("option", ["--detectors", "--time-gates"])
+@pytest.mark.parametrize("option", ["--detectors", "--time-gates", "--orientations"])
 def test_an_unknown_name_is_one_sentence(folder, option):
     check_refused(pdr("compare", option, "magic", "walk1.csv", cwd=folder), f"{option} magic", "choose from all, ")
 
@@ -134,3 +134,17 @@ def test_recordings_of_the_same_name_keep_their_folders(folder, tmp_path):
     run = pdr("compare", "--detectors", "glrt", *paths)
     assert run.returncode == 0, run.stderr
     assert all(str(path) in run.stdout for path in paths)
+
+
+def test_methods_of_orientation_are_compared_instead(folder, tmp_path):
+    run = pdr("compare", "--orientations", "all", folder / "walk1.csv", "--out", tmp_path / "out")
+    assert run.returncode == 0, run.stderr
+    rows = [line.split() for line in run.stdout.splitlines()]
+    methods = ["error_state", "quaternion_ekf", "gradient_descent", "complementary"]
+    assert [row[1] for row in rows if row[:1] == ["walk1"]] == methods
+    told = run.stderr.splitlines()
+    assert told[0].startswith("walk1, factored_quaternion: factored quaternions need a magnetometer")
+    assert told[1] == f"Written to {tmp_path / 'out'}: orientations.html, orientations.json"
+    (found,) = json.loads((tmp_path / "out" / "orientations.json").read_text())
+    assert list(found["scores"]) == methods
+    assert "Plotly" in (tmp_path / "out" / "orientations.html").read_text()

@@ -88,7 +88,14 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
 def weighed(residual: Floats, sd_mps: float, state: FilterState) -> tuple[Innovation, Innovation]:
     """Return the innovation of a velocity residual (3,), and what it would be if the yaw were known."""
     y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
-    return y, given_yaw(state.P, y)
+    P = state.P.copy()
+    HP = y.HP.copy()
+    for i in range(3):
+        for j in range(SIZE):
+            P[j, POSITION + i] -= state.cross[j, i]
+        for j in range(3):
+            HP[j, POSITION + i] -= state.cross[VELOCITY + j, i]
+    return y, given_yaw(P, Innovation(y.residual, HP, y.S, y.S_inverse))
 
 
 @compiled

@@ -21,7 +21,7 @@ from pdr_core.strapdown.swing import (
 )
 
 LONGEST_NS = nanoseconds(5.0)  # no step takes so long
-IMPOSSIBLE_MPS2 = 2.0  # a stance that needs an acceleration so wrong is none: on real walks it is 1 at most
+IMPOSSIBLE_MPS2 = 1.4  # a stance that needs an acceleration so wrong is none: in strides of real walks it is 1 at most
 RELEASE_S = 0.1  # unless it goes on
 
 

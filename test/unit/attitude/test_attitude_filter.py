@@ -12,7 +12,7 @@ from pdr_core.intake import Ingestion
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
-from pdr_core.simulation.sensors import SENSOR_MODELS
+from pdr_core.simulation.imu_model import SENSOR_MODELS
 from pdr_core.stance import StanceDetection
 
 RATE_HZ = 200
@@ -181,6 +181,18 @@ def test_a_sensor_that_is_kicked_aside_is_level_again_and_it_says_so(kind, turn_
     assert not kind(Params()).notices
 
 
+@pytest.mark.parametrize("turn_rad", [(0.9, -0.7, 0.0), (2.2, -2.1, 0.3), (np.pi, 0.0, 0.0)])
+def test_one_doubt_is_enough_for_a_turn_of_any_size(turn_rad):
+    imu = part(IDEAL.imu, 0, 450)
+    accel = imu.accel_mps2.copy()
+    accel[400:] = Rotation.from_rotvec(turn_rad).apply(accel[400:])
+    one = UnjudgedQuaternionFilter(Params())
+    found = one.run(imu._replace(accel_mps2=accel, gyro_sd_radps=np.full(450, 0.01)))
+    up = Rotation.from_quat(found.quat_xyzw[425]).apply(accel[425])  # the release takes .1 s
+    assert np.hypot(up[0], up[1]) < 1e-3 * up[2]
+    assert one.state.doubted == 1
+
+
 def test_the_field_holds_the_heading_that_a_bias_would_turn():
     imu = with_field(copied(IDEAL.imu))
     imu.gyro_radps[:] += [0.0, 0.0, 0.005]
@@ -219,7 +231,7 @@ def test_without_being_told_the_field_is_not_used():
 
 
 def test_unjudged_a_moment_that_looks_like_rest_counts_little_after_a_motion():
-    """Rest, a motion, then ten samples as long as gravity but turned: the shorter the memory, the more they tilt."""
+    """Rest, a motion, and then ten samples as long as gravity but turned: without a memory they tilt more."""
     n, tilted = 500, Rotation.from_euler("y", 0.1).apply([0.0, 0.0, 9.806])
     accel = np.tile([0.0, 0.0, 9.806], (n, 1))
     accel[400:490], accel[490:] = [0.0, 0.0, 30.0], tilted
