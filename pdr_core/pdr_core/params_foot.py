@@ -216,7 +216,7 @@ class FilterParams:
         source="chi-square, 1 degree of freedom, 99 %",
     )
     field_heading_sd_rad: float = parameter(
-        0.05, "noise of the direction of a clean field at one place", unit="rad", bounds=(1e-4, 3.15), source="3 deg"
+        0.07, "noise of the direction of a clean field at one place", unit="rad", bounds=(1e-4, 3.15), source="4 deg"
     )
     heading_feedback: bool = parameter(
         False, "every step waits for its heading observation: set it where a node or stage gives them"

@@ -5,10 +5,11 @@ import numpy as np
 from pdr_core.eskf import field_change, field_heading, rare_bias
 from pdr_core.eskf.error_state import SIZE
 from pdr_core.eskf.field_places import CHANGE, HEADING, clean, visited
+from pdr_core.eskf.last_stances import correct_ends
 from pdr_core.eskf.quiet_field import QuietField
 from pdr_core.eskf.settings import FieldSettings
 from pdr_core.eskf.state import PLACES, FilterState
-from pdr_core.eskf.updates import apply, inject
+from pdr_core.eskf.updates import inject, learn
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.kalman import correct, correct_cross, estimated_error, gain, innovation, normalised_squared
 from pdr_core.maths.quaternion import rows
@@ -36,7 +37,7 @@ def field_changed(field: QuietField, s: FieldSettings, state: FilterState) -> No
     else:
         state.field_windows += 1
         state.field_use = max(state.field_use, CHANGE)
-        apply(y, H, gain(y), state)
+        learn(y, H, state)
 
 
 @compiled
@@ -58,6 +59,7 @@ def heading_corrected(field_tesla: Vector, s: FieldSettings, state: FilterState)
     inject(state, error[:SIZE])
     state.north_rad += error[SIZE]
     HC = product(np.ascontiguousarray(H[:, :SIZE]), state.cross) - state.north_ends
+    correct_ends(y, HC, state)
     correct_cross(state.cross, np.ascontiguousarray(K[:SIZE]), HC)
     state.north_ends[:] -= K[SIZE, 0] * HC
     correct(P, K, y)

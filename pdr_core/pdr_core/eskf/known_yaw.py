@@ -23,15 +23,15 @@ YAW = ATTITUDE + 2
 
 
 @compiled
-def given_yaw(P: Floats, y: Innovation) -> Innovation:
-    """Return the innovation y on the covariance P (n, n) as it were if the yaw error were known."""
+def given_yaw(yaw: Floats, y: Innovation) -> Innovation:
+    """Return the innovation y as it were if the yaw error were known; `yaw` (n,): its covariances with all errors."""
     HP, S = y.HP.copy(), y.S.copy()
-    if P[YAW, YAW] > 0.0:
+    if yaw[YAW] > 0.0:
         for i in range(S.shape[0]):
-            share = y.HP[i, YAW] / P[YAW, YAW]
+            share = y.HP[i, YAW] / yaw[YAW]
             for j in range(S.shape[1]):
                 S[i, j] -= share * y.HP[j, YAW]
             for j in range(HP.shape[1]):
-                HP[i, j] -= share * P[YAW, j]
+                HP[i, j] -= share * yaw[j]
             HP[i, YAW] = 0.0
     return Innovation(y.residual, HP, S, inverse_positive(S))

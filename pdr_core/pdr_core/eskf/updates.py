@@ -5,7 +5,8 @@ import numpy as np
 from pdr_core.conventions import GAP_NS
 from pdr_core.eskf import field_heading, floor, gravity, heading, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
-from pdr_core.eskf.known_yaw import given_yaw
+from pdr_core.eskf.known_yaw import YAW, given_yaw
+from pdr_core.eskf.last_stances import correct_ends, displaced
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
@@ -35,6 +36,17 @@ def apply(y: Innovation, H: Floats, K: Floats, state: FilterState) -> None:
     if field_heading.known(state):
         correct_cross(state.north_cross, K, product(H, state.north_cross))
     correct(state.P, K, y)
+
+
+@compiled
+def learn(y: Innovation, H: Floats, state: FilterState) -> None:
+    """Correct all that is known by the optimal gain, where the foot stood last too."""
+    K = correct_ends(y, product(H, state.cross), state)
+    if floor.known(state):
+        state.floor_ends[:] -= product(product(H, state.floor_cross).T, K.T)
+    if field_heading.known(state):
+        state.north_ends[:] -= product(product(H, state.north_cross).T, K.T)
+    apply(y, H, gain(y), state)
 
 
 @compiled
@@ -88,14 +100,9 @@ def zero_velocity(stamp_ns: int, rate_radps: Vector, sd_mps: float, s: Settings,
 def weighed(residual: Floats, sd_mps: float, state: FilterState) -> tuple[Innovation, Innovation]:
     """Return the innovation of a velocity residual (3,), and what it would be if the yaw were known."""
     y = innovation(state.P, zupt.H, np.eye(3) * sd_mps**2, residual)
-    P = state.P.copy()
-    HP = y.HP.copy()
-    for i in range(3):
-        for j in range(SIZE):
-            P[j, POSITION + i] -= state.cross[j, i]
-        for j in range(3):
-            HP[j, POSITION + i] -= state.cross[VELOCITY + j, i]
-    return y, given_yaw(P, Innovation(y.residual, HP, y.S, y.S_inverse))
+    HP = displaced(y.HP, product(zupt.H, state.cross))
+    yaw = displaced(state.P[YAW : YAW + 1], state.cross[YAW : YAW + 1])
+    return y, given_yaw(yaw[0], Innovation(y.residual, HP, y.S, y.S_inverse))
 
 
 @compiled
@@ -132,7 +139,7 @@ def zero_rate(rest_rate_radps: Vector, rest_sd_radps: float, state: FilterState)
     """Tell the filter the gyro bias that a rest has shown."""
     R = np.eye(3) * rest_sd_radps**2
     y = innovation(state.P, zaru.H, R, zaru.residual(rest_rate_radps, state.gyro_bias_radps))
-    apply(y, zaru.H, gain(y), state)
+    learn(y, zaru.H, state)
 
 
 @compiled
@@ -140,7 +147,7 @@ def correct_heading(yaw_error_rad: float, sd_rad: float, state: FilterState) -> 
     """Tell the filter by how much its track is turned too far."""
     R = np.eye(1) * sd_rad**2
     y = innovation(state.P, heading.H, R, heading.residual(yaw_error_rad))
-    apply(y, heading.H, gain(y), state)
+    learn(y, heading.H, state)
 
 
 @compiled
@@ -153,7 +160,7 @@ def level(force_mps2: Vector, sd_mps: float, state: FilterState) -> None:
     force = difference(force_mps2, state.accel_bias_mps2)
     R = gravity.noise(sd_mps, state.gravity_mps2)
     y = innovation(state.P, gravity.H, R, gravity.residual(state.quat_xyzw, force))
-    apply(y, gravity.H, zupt.without_gyro_bias(gain(given_yaw(state.P, y))), state)
+    apply(y, gravity.H, zupt.without_gyro_bias(gain(given_yaw(state.P[YAW], y))), state)
 
 
 @compiled
