@@ -62,3 +62,10 @@ def test_a_second_demonstration_does_not_overwrite_the_first(demo):
     assert answer.stderr.startswith("pdr: ")
     assert "exists already" in answer.stderr
     assert answer.stderr.count("\n") == 1
+
+
+def test_with_a_magnetometer_every_sample_has_its_field(tmp_path):
+    answer = pdr("demo", "--magnetometer", "--length", 1.2, "--rate", 8, "--out", tmp_path / "out")
+    assert answer.returncode == 0, answer.stderr
+    (sensor,) = open_recording(tmp_path / "out" / "recording").sensors.values()
+    assert (joined(list(sensor.pieces())).field_sd_tesla >= 0.0).all()

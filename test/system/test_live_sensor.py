@@ -18,7 +18,7 @@ from pdr_core.recording.tum import read_tum
 from pdr_core.records import joined, length
 from pdr_nodes.convert import stance_block
 from support import foreign_driver
-from support.processes import END_S, pdr, start
+from support.processes import END_S, check_refused, pdr, start
 from support.walks import straight_walk, write_csv
 
 STRIDES, SPEED = 4, 2
@@ -144,12 +144,22 @@ def test_the_failure_of_our_driver_is_told(tmp_path):
     assert not (tmp_path / "out" / "recording").exists()
 
 
-def test_a_driver_of_ours_is_started_and_ends_the_run(tmp_path):
+def test_a_magnetometer_without_its_topic_is_refused(tmp_path):
+    params = tmp_path / "mine.yaml"
+    params.write_text("/**: {ros__parameters: {node: {magnetometer: true}}}\n")
+    answer = pdr("live", "--params", params, "--out", tmp_path / "out")
+    check_refused(answer, "node.magnetometer is true: say by --mag")
+
+
+@pytest.mark.parametrize("mag", [(), ("--mag", "/imu/mag")])
+def test_a_driver_of_ours_is_started_and_ends_the_run(mag, tmp_path):
     params = tmp_path / "mine.yaml"
     walk = "{walk: straight, walk_length_m: 2.4, sample_rate_hz: 100.0}"
     params.write_text(f"/**: {{ros__parameters: {{driver: {{rate_factor: 4.0}}, simulation: {walk}}}}}\n")
-    answer = pdr("live", "--driver", "simulated", "--params", params, "--out", tmp_path / "out")
+    answer = pdr("live", "--driver", "simulated", *mag, "--params", params, "--out", tmp_path / "out")
     assert answer.returncode == 0, answer.stderr
+    verdicts = [stance_block(m) for m in messages(tmp_path / "out" / "recording", "stance")]
+    assert {bool(block.imu.field_sd_tesla[0] >= 0.0) for block in verdicts} == {bool(mag)}
     assert "in 2 strides" in answer.stdout
     assert "off the true path" in answer.stdout
 
