@@ -1,7 +1,7 @@
 """What a measurement tells of the places where the foot stood last, beside the place where it is.
 
 A zero velocity tells of the swing that it ends, nothing of the track before. By the linear model it would: a residual
-of some mm/s that is in truth a crooked axis or a slow filter in the sensor speaks for a turn, and so for the whole track
+of some mm/s that in truth is a crooked axis or a slow filter in the sensor speaks for a turn, so for the whole track
 turned about its start by millimetres a stride that grow with the distance. So the position moves by what the velocity
 tells of the *displacement* since the last stance: in the gain the covariance with it stands in for that with the
 position. (Measured: Qiu's track of 423 m .38 -> .09 % of its length. Joseph's form holds for any gain.)
