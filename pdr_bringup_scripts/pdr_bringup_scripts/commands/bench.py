@@ -55,15 +55,20 @@ def run_stress(seeds: int, json: bool) -> None:
 def run_qiu(out: Path | None, json: bool) -> None:
     """Walk Qiu's walks, print what came of it, and draw it."""
     from pdr_bringup_scripts.book import make_folder
+    from pdr_bringup_scripts.problems import Problem
     from pdr_bringup_scripts.qiu_tables import FILES, as_json, show, write_files
     from pdr_bringup_scripts.terminal import Terminal
+    from pdr_core.bench.orientations import CannotOrient
     from pdr_core.bench.qiu_tables import costs, qiu_tables
 
     if out:
         make_folder(out)
     terminal = Terminal()
     with terminal.progress("Qiu's walks") as tell:
-        walks = qiu_tables(tell)
+        try:
+            walks = qiu_tables(tell)
+        except CannotOrient as why:
+            raise Problem(str(why)) from why
     with terminal.progress("What each error of the sensor costs") as tell:
         cost = costs(tell)
     if json:

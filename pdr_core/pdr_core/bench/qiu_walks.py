@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pdr_core.bench.mocap_gait import tracked, verdicts
+from pdr_core.bench.trial import Walk
 from pdr_core.conventions import seconds_between
 from pdr_core.evaluation.course_plots import CourseTrack
 from pdr_core.evaluation.metrics import closure_2d_m, percent, stride_distance_m
@@ -82,17 +84,33 @@ def eskf(imu: ImuBlock, params: Params) -> Track:
     return Track(joined([o.nav for o in outputs]), [step for o in outputs for step in o.steps])
 
 
-METHODS: dict[str, Method] = {"ESKF": eskf}
+def by_orientation(name: str) -> Method:
+    """Return the method that orients a foot as `bench.orientations` names it and takes the drift off each swing."""
+
+    def method(imu: ImuBlock, params: Params) -> Track:
+        oriented = tracked(name, verdicts(Walk(name, [imu], None), params), params)
+        return Track(oriented.nav, oriented.steps)
+
+    return method
+
+
+METHODS: dict[str, Method] = {
+    "ESKF": eskf,
+    "EKF": by_orientation("quaternion_ekf"),
+    "CF": by_orientation("complementary"),
+    "GDA": by_orientation("gradient_descent"),
+}
 
 
 def told() -> Params:
     """Return parameters that know the ranges of the sensor and its biases, which are those of its data sheet.
 
-    Its noise is below what the suite takes every sensor to have.
+    Its noise is below what the suite takes every sensor to have. Every method may use the magnetic field.
     """
     params = changed(
         Params(), "intake", gyro_range_radps=SENSOR.gyro_range_radps, accel_range_mps2=SENSOR.accel_range_mps2
     )
+    params = changed(params, "attitude", use_field=True)
     return changed(
         params,
         "filter",

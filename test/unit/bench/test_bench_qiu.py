@@ -103,8 +103,18 @@ def test_a_method_gets_the_field_and_what_it_loses_is_seen(monkeypatch):
     assert 16.0 < r.error_per_turn_deg < 20.0
 
 
+@pytest.mark.parametrize("method", ["EKF", "CF", "GDA"])
+def test_the_orientations_of_others_walk_too(method):
+    r = measured(SHORT, method).result
+    assert r.strides == r.strides_true
+    assert abs(r.distance_error_percent) < 3.0
+    assert r.error_per_turn_deg < 2.0
+
+
 def test_every_method_walks_every_walk(monkeypatch):
     monkeypatch.setattr("pdr_core.bench.qiu_tables.trials", lambda: [SHORT, CLIMB])
+    for name in ("EKF", "CF", "GDA"):
+        monkeypatch.delitem(qiu_walks.METHODS, name)
     monkeypatch.setitem(qiu_walks.METHODS, "again", eskf)
     seen = []
     walks = qiu_tables(seen.append)
