@@ -12,7 +12,7 @@ from pdr_core.intake import Ingestion
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.records import ImuBlock, joined, length, part
 from pdr_core.simulation import simulated_walk
-from pdr_core.simulation.imu_model import SENSOR_MODELS
+from pdr_core.simulation.sensors import SENSOR_MODELS
 from pdr_core.stance import StanceDetection
 
 RATE_HZ = 200
