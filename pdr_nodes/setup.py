@@ -5,7 +5,7 @@ NODES = ["imu_driver", "imu_ingestion", "stance_detector", "zupt_ekf"]
 
 setup(
     name=NAME,
-    version="0.3.0",
+    version="0.4.0",
     description="The ROS 2 nodes of the pedestrian dead reckoning suite.",
     maintainer="pdr maintainers",
     maintainer_email="pdr@example.org",
