@@ -5,7 +5,8 @@ Its gradient descent (Madgwick 2011) and its nonlinear complementary filter (Mah
 is, upwards at rest, into a world whose z points up: that is ours. Its factored quaternions (Yun 2008) are those of axes
 forward, right, down in a world north, east, down; turned by half a turn about x on both sides they are ours, with x
 to the north. Where a method knows north, its world is turned so that the foot begins at the yaw that the others begin
-with.
+with. The library's filters start from the gyro bias that the first rest shows, as ours do: without it a gyro that is
+off by 1 deg/s would be all that the comparison shows.
 
 Madgwick's gains are those of his paper, .033 and .041 with the field. The library's for Mahony, k_P 1 and k_I .3, take
 the swing for a tilt: strides come out 13 to 16 % short. Of 1, .3, .1 and .03 the last does best against motion capture,
@@ -119,13 +120,20 @@ def updated(one: Any, quat_wxyz: Floats, judged: StanceBlock, with_field: bool) 
     """Yield the orientation at each sample; across gaps, and where the gyro is off, it is held."""
     imu = judged.imu
     step_ns = np.diff(imu.stamp_ns, prepend=imu.stamp_ns[0])
+    gyro_radps = imu.gyro_radps - first_rest_radps(judged)
     known = (step_ns > 0) & (step_ns <= GAP_NS) & (imu.gyro_sd_radps >= 0.0)
     for i in range(length(imu)):
         if known[i]:
-            sample = (imu.gyro_radps[i], imu.accel_mps2[i], *([imu.field_tesla[i]] if with_field else []))
+            sample = (gyro_radps[i], imu.accel_mps2[i], *([imu.field_tesla[i]] if with_field else []))
             update = one.updateMARG if with_field else one.updateIMU
             quat_wxyz = np.array(update(quat_wxyz, *sample, dt=float(step_ns[i]) / NANOSECONDS))
         yield quat_wxyz
+
+
+def first_rest_radps(judged: StanceBlock) -> Floats:
+    """Return the gyro bias (3,) that the first proven rest shows; zero without one."""
+    rests = np.flatnonzero(judged.rest_sd_radps > 0.0)
+    return judged.rest_rate_radps[rests[0]] if len(rests) else np.zeros(3)
 
 
 def from_the_usual_yaw(quat_xyzw: Floats, judged: StanceBlock, params: Params) -> Floats:
