@@ -9,7 +9,7 @@ from test_eskf_filter import JUDGED, STANCE_ENDS, WALK, fresh
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.process import carry, noise, propagate_covariance
 from pdr_core.eskf.step_events import begin_next, roam, stand
-from pdr_core.eskf.updates import zero_velocity
+from pdr_core.eskf.updates import correct_heading, zero_velocity
 from pdr_core.params import FilterParams, PlaceParams
 from pdr_core.records import joined, part
 
@@ -94,10 +94,12 @@ def test_steps_do_not_depend_on_how_the_stream_is_cut():
 def dense_update(P, H, R, rows):
     """Update like the filter: the gain of the error rows alone, none for gyro bias and for the remembered position.
 
-    The gain is that of a known yaw.
+    The gain is that of a known yaw, and the position moves as the displacement since the remembered one does.
     """
+    displaced = np.eye(18)
+    displaced[:3, 15:] = -np.eye(3)
     given_yaw = P - np.outer(P[:, 8], P[8]) / P[8, 8]
-    K = np.where(rows[:, None], given_yaw @ H.T @ np.linalg.inv(H @ given_yaw @ H.T + R), 0.0)
+    K = np.where(rows[:, None], displaced @ given_yaw @ H.T @ np.linalg.inv(H @ given_yaw @ H.T + R), 0.0)
     rest = np.eye(len(P)) - K @ H
     return rest @ P @ rest.T + K @ R @ K.T
 
@@ -123,10 +125,43 @@ def test_the_covariance_of_a_displacement_is_that_of_a_filter_with_a_cloned_stat
             state.velocity_mps[:] = 0.0
             assert zero_velocity(k, state.gyro_bias_radps, SETTINGS.zero_velocity_sd_mps, SETTINGS, state)
             P = dense_update(P, H, R, rows)
+        if k % 20 == 5:
+            correct_heading(0.01, 0.05, state)
+            P = P - np.outer(P[:, 8], P[8]) / (P[8, 8] + 0.05**2)
     stand(10**9, state)
     difference = np.hstack([np.eye(3), np.zeros((3, 12)), -np.eye(3)])
     np.testing.assert_allclose(state.displacement_covariance, difference @ P @ difference.T, rtol=1e-7, atol=1e-12)
     np.testing.assert_allclose(state.P, P[:15, :15], rtol=1e-7, atol=1e-12)
+
+
+def test_a_heading_turns_the_last_stance_end_along_with_the_foot():
+    state = random_state(np.random.default_rng(2))
+    stand(0, state)
+    begin_next(state)
+    at_the_end = state.end_position_m[0].copy()
+    state.P[6:9] *= 3.0  # the yaw has drifted since, and all that goes with it
+    state.P[:, 6:9] *= 3.0
+    state.cross[6:9] *= 3.0
+    before, gain = state.position_m.copy(), state.P[:, 8] / (state.P[8, 8] + 0.1**2)
+    gain_of_end = state.cross[8, :3] / (state.P[8, 8] + 0.1**2)
+    correct_heading(0.02, 0.1, state)
+    np.testing.assert_allclose(state.position_m - before, -0.02 * gain[:3], atol=1e-12)
+    np.testing.assert_allclose(state.end_position_m[0] - at_the_end, -0.02 * gain_of_end, atol=1e-12)
+
+
+def test_a_stance_leaves_the_track_before_it_alone():
+    """What a stance tells of a turn must not swing a far foot round the start of the walk."""
+    state = random_state(np.random.default_rng(4))
+    state.P[:] = np.diag(np.repeat([1e-4, 1e-6, 1e-6, 1e-6, 1e-8], 3))
+    state.P[0, 8] = state.P[8, 0] = -0.9 * 1e-2 * 1e-3  # of a walk along y: the position goes with the yaw
+    state.P[3, 8] = state.P[8, 3] = -0.9 * 1e-3 * 1e-3  # and so does the velocity of a swing
+    state.P[0, 3] = state.P[3, 0] = 0.99 * 1e-2 * 1e-3  # both by more than the yaw alone
+    stand(0, state)
+    begin_next(state)
+    before = state.position_m.copy()
+    state.velocity_mps[:] = [0.001, 0.0, 0.0]
+    zero_velocity(1, state.gyro_bias_radps, SETTINGS.zero_velocity_sd_mps, SETTINGS, state)
+    np.testing.assert_allclose(state.position_m, before, atol=1e-12)
 
 
 def test_a_displacement_is_known_better_than_the_difference_of_two_positions():
