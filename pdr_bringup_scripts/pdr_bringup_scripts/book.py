@@ -20,7 +20,8 @@ from pdr_core.pipeline import FootGait, FootOutput
 from pdr_core.recording import Sensor, Session
 from pdr_core.recording.strides import write_strides
 from pdr_core.recording.tum import Trajectory, append_tum, write_tum_header
-from pdr_core.records import Floats, Notice, StepEvent, Stride, length
+from pdr_core.records import Floats, Notice, StepEvent, length
+from pdr_core.records_gait import Stride
 
 FILES = "trajectory.tum, strides.csv, result.json, report.html"
 

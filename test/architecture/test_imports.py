@@ -9,8 +9,8 @@ MESSAGES = (
     "builtin_interfaces diagnostic_msgs geometry_msgs nav_msgs pdr_msgs rcl_interfaces sensor_msgs std_msgs tf2_msgs"
 )
 BASE = (
-    "numpy pdr_core.records pdr_core.conventions pdr_core.parameter pdr_core.params pdr_core.notices"
-    " pdr_core.field_pairing"
+    "numpy pdr_core.records pdr_core.records_gait pdr_core.conventions pdr_core.parameter pdr_core.params"
+    " pdr_core.notices pdr_core.field_pairing"
 )
 STAGE = f"{BASE} pdr_core.maths scipy"
 # in the order in which a sample meets them; a stage that does not exist yet has its row already
@@ -27,6 +27,7 @@ RESULTS = "pdr_core.warmup pdr_core.pipeline pdr_core.evaluation pdr_core.record
 MAY_IMPORT = {
     "pdr_core": "",
     "pdr_core.records": "numpy pdr_core.conventions",
+    "pdr_core.records_gait": "numpy pdr_core.records",
     "pdr_core.conventions": "numpy",
     "pdr_core.parameter": "",
     "pdr_core.params_foot": "pdr_core.parameter",
@@ -34,7 +35,7 @@ MAY_IMPORT = {
     "pdr_core.params_attitude": "pdr_core.parameter",
     "pdr_core.params": "pdr_core.parameter pdr_core.params_foot pdr_core.params_detectors pdr_core.params_attitude",
     "pdr_core.notices": "pdr_core.records",
-    "pdr_core.field_pairing": "numpy pdr_core.records pdr_core.conventions pdr_core.notices",
+    "pdr_core.field_pairing": "numpy pdr_core.records pdr_core.records_gait pdr_core.conventions pdr_core.notices",
     "pdr_core.params_file": "yaml pdr_core.parameter pdr_core.params",
     "pdr_core.maths": f"{BASE} scipy",
     "pdr_core.maths.compiled": "numba",  # the only one: here the cache is keyed on the sources

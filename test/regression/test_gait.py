@@ -12,7 +12,7 @@ from pdr_core.evaluation.gait_totals import gait_totals
 from pdr_core.params import Params, changed
 from pdr_core.pipeline import FootGait, FootInertial
 from pdr_core.recording import Sensor, open_recording
-from pdr_core.records import Mounting, Stride
+from pdr_core.records_gait import Mounting, Stride
 
 RATE_HZ = 204.8  # of gaitmap
 LONGEST_SWING_S = 0.8

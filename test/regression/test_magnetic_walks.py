@@ -26,7 +26,7 @@ def ate2_m(recordings: Path, params: Params, bias_degps: np.ndarray | float = 0.
         sensor = open_recording(recordings / f"tile_walks_marg/SensorConnectData_{number}.csv").sensors["imu"]
         pieces = [biased(piece, np.asarray(bias_degps)) for piece in sensor.pieces()]
         assert (pieces[0].field_sd_tesla >= 0.0).all()
-        found.append(trial(Walk(str(number), pieces, sensor.truth), params).score.truth.ate2_m)
+        found.append(trial(Walk(str(number), pieces, sensor.truth), params).score.error_m)
     print(f"{params.filter.magnetometer:>6} {bias_degps}: {np.round(found, 3)} mean {np.mean(found):.3f} m")
     return np.array(found)
 

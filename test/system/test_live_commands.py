@@ -7,7 +7,7 @@ from support.walks import COLUMNS, straight_walk, write_csv
 
 WALK = {"recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes"}
 CLOSURE = {"strides", "distance_m", "end_position_m", "closure_2d_m", "closure_3d_m"}
-KEYS = {*WALK, *CLOSURE, "seconds", "notices", "config", "truth", "version", "commit"}
+KEYS = {*WALK, *CLOSURE, "gait", "seconds", "notices", "config", "truth", "version", "commit"}
 COMMANDS = ("demo", "test", "live", "run", "replay", "simulate", "convert", "evaluate", "params")
 TWO_FEET = """name: two
 time: {column: t, unit: ns}

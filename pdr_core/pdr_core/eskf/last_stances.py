@@ -2,9 +2,10 @@
 
 A zero velocity tells of the swing that it ends, nothing of the track before. By the linear model it would: a residual
 of some mm/s that in truth is a crooked axis or a slow filter in the sensor speaks for a turn, so for the whole track
-turned about its start by millimetres a stride that grow with the distance. So the position moves by what the velocity
+turned about its start by millimetres a stride that grow with the distance. So the place moves by what the velocity
 tells of the *displacement* since the last stance: in the gain the covariance with it stands in for that with the
-position. (Measured: Qiu's track of 423 m .38 -> .09 % of its length. Joseph's form holds for any gain.)
+position. Heights do not turn, and stay as the linear model has them. (Measured: Qiu's track of 423 m .38 -> .09 % of
+its length. Joseph's form holds for any gain.)
 
 What does tell of the track, a heading or a bias, moves the last stance ends too: they are states of the filter
 (stochastic cloning), and so the displacement of a step has no jump in it.
@@ -20,13 +21,13 @@ from pdr_core.records import Floats
 
 @compiled
 def displaced(with_errors: Floats, with_ends: Floats) -> Floats:
-    """Return covariances (m, 15) with the errors, with the displacement since the last stance in place of the position.
+    """Return covariances (m, 15) with the errors, x and y being of the displacement since the last stance.
 
     `with_ends` (m, 6) are those with the positions at both stance ends.
     """
     out = with_errors.copy()
     for i in range(out.shape[0]):
-        for j in range(3):
+        for j in range(2):
             out[i, POSITION + j] -= with_ends[i, j]
     return out
 

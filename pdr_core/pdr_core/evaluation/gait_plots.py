@@ -8,7 +8,8 @@ import numpy as np
 
 from pdr_core.evaluation import style
 from pdr_core.evaluation.trace import Trace
-from pdr_core.records import CYCLE_POINTS, Floats, Stride
+from pdr_core.records import Floats
+from pdr_core.records_gait import CYCLE_POINTS, Stride
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from pdr_core.records import Mounting, Stride
+from pdr_core.records_gait import Mounting, Stride
 
 STAIR_M = 0.08  # a stride that ends so much higher or lower than it began is on stairs: half a riser
 FLOOR_M = 3.0  # from one floor to the next

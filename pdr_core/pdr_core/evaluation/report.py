@@ -12,7 +12,8 @@ from pdr_core.evaluation.result import LEVELS, Result, in_words
 from pdr_core.evaluation.score import TruthView
 from pdr_core.evaluation.trace import Trace
 from pdr_core.evaluation.words import counted, duration, metres, share
-from pdr_core.records import Stride, TruthKind
+from pdr_core.records import TruthKind
+from pdr_core.records_gait import Stride
 
 
 class Card(NamedTuple):

@@ -10,7 +10,8 @@ import numpy as np
 from pdr_core.gait.samples import Samples
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Vector, dot
-from pdr_core.records import CYCLE_POINTS, Floats
+from pdr_core.records import Floats
+from pdr_core.records_gait import CYCLE_POINTS
 
 
 @compiled

@@ -5,7 +5,8 @@ from scipy.spatial.transform import Rotation
 
 from pdr_core.maths.magnetic import magnetic_yaw_rad
 from pdr_core.maths.quaternion import from_euler, matrix
-from pdr_core.records import Floats, Mounting
+from pdr_core.records import Floats
+from pdr_core.records_gait import Mounting
 
 
 def rest_orientation(accel_mps2: Floats) -> Floats:

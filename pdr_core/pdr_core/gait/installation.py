@@ -18,7 +18,8 @@ from scipy.spatial.transform import Rotation
 from pdr_core.gait.foot_events import Marks
 from pdr_core.gait.samples import Cycle
 from pdr_core.maths.quaternion import matrix, turn_about_up_rad
-from pdr_core.records import Floats, Mounting
+from pdr_core.records import Floats
+from pdr_core.records_gait import Mounting
 
 STRAIGHT_RAD = 0.26  # 15 deg: a foot that turns by more walks a turn
 SHORTEST_M = 0.3  # a shorter displacement hardly has a direction

@@ -17,7 +17,8 @@ from pdr_core.gait.installation import FEWEST, Installation
 from pdr_core.gait.samples import Buffer, Cycle
 from pdr_core.maths.quaternion import matrix, turn_about_up_rad
 from pdr_core.notices import Tally
-from pdr_core.records import Level, Mounting, NavBlock, Notice, StanceBlock, StepEvent, Stride
+from pdr_core.records import Level, NavBlock, Notice, StanceBlock, StepEvent
+from pdr_core.records_gait import Mounting, Stride
 
 WAITING = 40  # strides
 PAUSE_NS = 2_000_000_000  # a foot that stands for longer makes a pause: nobody knows when its stride was over

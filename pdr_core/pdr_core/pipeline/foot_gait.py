@@ -2,7 +2,8 @@
 
 from pdr_core.gait import StrideAnalysis
 from pdr_core.pipeline.foot_inertial import FootOutput
-from pdr_core.records import Mounting, Notice, Stride
+from pdr_core.records import Notice
+from pdr_core.records_gait import Mounting, Stride
 
 
 class FootGait:

@@ -14,7 +14,8 @@ from pdr_core.gait.samples import Buffer
 from pdr_core.maths.quaternion import from_euler, matrix
 from pdr_core.params import IntakeParams, Params
 from pdr_core.pipeline.foot_inertial import FootInertial, FootOutput
-from pdr_core.records import Floats, ImuBlock, Mounting, Stamps, StepEvent, joined, part
+from pdr_core.records import Floats, ImuBlock, Stamps, StepEvent, joined, part
+from pdr_core.records_gait import Mounting
 
 SHOWN_S = 20.0  # of the recording, from its start
 REST_S = 3.0  # before the first stride, at most

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pdr_core.recording.stamps import text_from_stamp_ns
-from pdr_core.records import Floats, StepEvent, Stride
+from pdr_core.records import Floats, StepEvent
+from pdr_core.records_gait import Stride
 
 FIRST = ["stride", "t_s", "x_m", "y_m", "z_m", "length_m", "heading_rad"]
 GAIT = ["start_s", "dx_m", "dy_m", "dz_m", "duration_s", "cadence_per_min", "speed_mps", "stance_s", "swing_s"]

@@ -42,8 +42,13 @@ def errors_rad(quat_xyzw, motion=IDEAL.motion):
 
 
 def with_field(imu, motion=IDEAL.motion, field=FIELD):
-    seen = Rotation.from_quat(motion.quat_xyzw).inv().apply(field)
-    return imu._replace(field_tesla=seen, field_sd_tesla=np.zeros(length(imu)))
+    return imu._replace(field_tesla=seen(field, motion.quat_xyzw), field_sd_tesla=np.zeros(length(imu)))
+
+
+def seen(field, quat_xyzw):
+    """What a magnetometer shows: values that are the same to the last bit would count as one that is repeated."""
+    noise = 1e-9 * np.random.default_rng(0).standard_normal((len(quat_xyzw), 3))
+    return Rotation.from_quat(quat_xyzw).inv().apply(field) + noise
 
 
 def kinds():
@@ -207,17 +212,13 @@ def test_the_field_holds_the_heading_that_a_bias_would_turn():
 def test_a_disturbed_field_turns_nothing_and_a_clean_one_tilts_nothing():
     params = changed(Params(), "attitude", use_field=True)
     imu = with_field(copied(IDEAL.imu))
-    imu.field_tesla[1700:] = (
-        Rotation.from_quat(IDEAL.motion.quat_xyzw[1700:]).inv().apply(FIELD + np.array([3e-5, -1e-5, 0.0]))
-    )
+    imu.field_tesla[1700:] = seen(FIELD + np.array([3e-5, -1e-5, 0.0]), IDEAL.motion.quat_xyzw[1700:])
     one = QuaternionFilter(params)
     found = one.run(judged_by(imu))
     assert np.abs(errors_rad(found.quat_xyzw)).max() < np.radians(0.05)
     assert "field_disturbed" in {notice.kind for notice in one.notices}
     off_north = with_field(copied(IDEAL.imu), field=FIELD)
-    off_north.field_tesla[400:] = (
-        Rotation.from_quat(IDEAL.motion.quat_xyzw[400:]).inv().apply(Rotation.from_euler("z", 0.3).apply(FIELD))
-    )
+    off_north.field_tesla[400:] = seen(Rotation.from_euler("z", 0.3).apply(FIELD), IDEAL.motion.quat_xyzw[400:])
     turned = QuaternionFilter(params).run(judged_by(off_north))
     assert np.abs(errors_rad(turned.quat_xyzw)[:, 2]).max() > 0.05
     tilt = Rotation.from_quat(turned.quat_xyzw).inv().apply([0.0, 0.0, 1.0])

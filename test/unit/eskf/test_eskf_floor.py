@@ -50,10 +50,14 @@ def dense_update(P, H, R, rows):
 
 
 def dense_zero_velocity(P):
-    """Update it as the filter does: as if the yaw were known, and not the gyro bias nor what is remembered."""
-    H, R = np.eye(19)[3:6], CALM_MPS**2 * np.eye(3)
+    """Update it as the filter does: as if the yaw were known, and not the gyro bias nor what is remembered.
+
+    The place moves as the displacement since the last stance does.
+    """
+    H, R, displaced = np.eye(19)[3:6], CALM_MPS**2 * np.eye(3), np.eye(19)
+    displaced[:2, 15:17] = -np.eye(2)
     known = P - np.outer(P[:, 8], P[8]) / P[8, 8]
-    K = known @ H.T @ np.linalg.inv(H @ known @ H.T + R)
+    K = displaced @ known @ H.T @ np.linalg.inv(H @ known @ H.T + R)
     K[12:] = 0.0
     rest = np.eye(19) - K @ H
     return rest @ P @ rest.T + K @ R @ K.T

@@ -94,10 +94,10 @@ def test_steps_do_not_depend_on_how_the_stream_is_cut():
 def dense_update(P, H, R, rows):
     """Update like the filter: the gain of the error rows alone, none for gyro bias and for the remembered position.
 
-    The gain is that of a known yaw, and the position moves as the displacement since the remembered one does.
+    The gain is that of a known yaw, and the place moves as the displacement since the remembered one does.
     """
     displaced = np.eye(18)
-    displaced[:3, 15:] = -np.eye(3)
+    displaced[:2, 15:17] = -np.eye(2)
     given_yaw = P - np.outer(P[:, 8], P[8]) / P[8, 8]
     K = np.where(rows[:, None], displaced @ given_yaw @ H.T @ np.linalg.inv(H @ given_yaw @ H.T + R), 0.0)
     rest = np.eye(len(P)) - K @ H

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from pdr_core.evaluation.result import Result
-from pdr_core.records import CYCLE_POINTS, Level, NavBlock, Notice, StanceBlock, StepEvent, Stride, inertial_block
+from pdr_core.records import Level, NavBlock, Notice, StanceBlock, StepEvent, inertial_block
+from pdr_core.records_gait import CYCLE_POINTS, Stride
 
 PERIOD_NS = 10_000_000  # 100 Hz
 STRIDE_SAMPLES, STANCE_SAMPLES = 120, 50

@@ -12,7 +12,7 @@ from pdr_core.evaluation.gait_totals import gait_totals, spread
 from pdr_core.evaluation.gait_words import gait_rows
 from pdr_core.evaluation.mounting_page import Orientations, figure_3, table_2, write_mounting
 from pdr_core.evaluation.trace import Trace
-from pdr_core.records import CYCLE_POINTS, Mounting
+from pdr_core.records_gait import CYCLE_POINTS, Mounting
 
 MOUNTING = Mounting(np.array([0.0, 0.0, 0.0, 1.0]), 0.005, 0.01, 6)
 

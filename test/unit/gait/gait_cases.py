@@ -7,7 +7,8 @@ import numpy as np
 
 from pdr_core.params import Params, SimulationParams
 from pdr_core.pipeline import FootGait, FootInertial
-from pdr_core.records import ImuBlock, Mounting, Notice, Stride, length, part
+from pdr_core.records import ImuBlock, Notice, length, part
+from pdr_core.records_gait import Mounting, Stride
 from pdr_core.simulation import SimulatedWalk, simulated_walk
 from pdr_core.simulation.foot_motion import PUSH_SHARE, FootCourse
 from pdr_core.simulation.walk import course

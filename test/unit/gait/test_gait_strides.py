@@ -10,7 +10,8 @@ from pdr_core.conventions import NANOSECONDS
 from pdr_core.gait.stride_analysis import WAITING
 from pdr_core.params import Params, SimulationParams
 from pdr_core.pipeline import FootGait, FootInertial, FootOutput, SmoothedFoot
-from pdr_core.records import CYCLE_POINTS, NOT_NUMBERED, ImuBlock, part
+from pdr_core.records import NOT_NUMBERED, ImuBlock, part
+from pdr_core.records_gait import CYCLE_POINTS
 from pdr_core.simulation import simulated_walk
 from pdr_core.simulation.gait import RISE_M, RUN, STAIRS_UP, WALK
 

@@ -106,6 +106,18 @@ def test_samples_without_a_field_among_others_and_cuts_change_nothing_but_what_t
     np.testing.assert_array_equal(joined([*pieces, cut.finish().nav]).pose_covariance, whole.pose_covariance)
 
 
+def test_without_the_gyro_the_field_tells_nothing_of_its_bias():
+    imu = in_field(walk(), earth_field(AZIMUTH_RAD))
+    off = np.arange(length(imu)) >= 6000
+    dark = imu._replace(
+        gyro_radps=np.where(off[:, None], 0.0, imu.gyro_radps), gyro_sd_radps=np.where(off, -1.0, imu.gyro_sd_radps)
+    )
+    nav, chain = estimated(dark)
+    _, before = estimated(part(imu, 0, 6000))
+    assert 0 <= chain.state.field_windows - before.state.field_windows <= 1  # the one that was open
+    assert np.isfinite(nav.position_m).all()
+
+
 def test_the_covariance_of_the_heading_is_honest_in_a_clean_field():
     errors = []
     for seed in range(8):

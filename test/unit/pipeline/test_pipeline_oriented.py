@@ -28,4 +28,5 @@ def test_it_says_what_both_say():
     late = part(broken, 900)
     chain.run(part(broken, 0, 600))
     chain.run(late)
-    assert {"not_finite", "attitude_coasted"} <= {notice.kind for notice in chain.notices}
+    assert "not_finite" in {notice.kind for notice in chain.notices}
+    assert "attitude_coasted" in {notice.kind for notice in chain.orientation_notices}

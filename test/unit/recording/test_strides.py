@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from pdr_core.recording.strides import write_strides
-from pdr_core.records import StepEvent, Stride
+from pdr_core.records import StepEvent
+from pdr_core.records_gait import Stride
 
 OLD = "stride,t_s,x_m,y_m,z_m,length_m,heading_rad"
 NEW = "start_s,dx_m,dy_m,dz_m,duration_s,cadence_per_min,speed_mps,stance_s,swing_s,clearance_m,turn_rad"
