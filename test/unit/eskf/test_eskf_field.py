@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from filter_cases import copied, injected, random_state
+from filter_cases import copied, injected, random_state, transition
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -11,6 +11,7 @@ from pdr_core.eskf import field_change, field_heading, field_places, quiet_field
 from pdr_core.eskf.configure import settings
 from pdr_core.eskf.error_state import ATTITUDE, GYRO_BIAS, SIZE
 from pdr_core.eskf.field_updates import field_changed, heading_corrected, stand_in_field
+from pdr_core.eskf.navigate import Sample, predict
 from pdr_core.eskf.quiet_field import QuietField
 from pdr_core.eskf.state import PLACES
 from pdr_core.eskf.step_events import stand
@@ -125,6 +126,17 @@ def test_north_is_learnt_as_the_sixteenth_state_of_one_filter(seed):
     np.testing.assert_allclose(state.end_position_m[1] - before.end_position_m[1], shift[SIZE + 1 :], atol=1e-9)
     np.testing.assert_allclose(state.position_m - before.position_m, shift[:3], atol=1e-9)
     assert state.north_rad - before.north_rad == pytest.approx(shift[SIZE], abs=1e-9)
+
+
+def test_what_is_known_together_with_north_moves_with_the_errors():
+    state = walker(PLACES)
+    state.last_ns, state.last_force_mps2[:], state.gravity_mps2 = 0, [1.0, -2.0, 9.0], 9.8
+    before = state.north_cross.copy()
+    none = (0.0, 0.0, 0.0)
+    now = Sample(5 * MS, (3.0, 1.0, 8.0), (0.5, 2.0, -1.0), 0.1, 0.01, False, 0.0, none, 0.0, none, -1.0)
+    k = predict(now, SETTINGS, state)
+    assert np.abs(before).max() > 0.0
+    np.testing.assert_allclose(state.north_cross, transition(k) @ before, atol=1e-15)
 
 
 def stands_in(state, world_tesla, step_m=1.0):
