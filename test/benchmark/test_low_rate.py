@@ -37,7 +37,7 @@ def averaged(samples: ImuBlock, k: int) -> ImuBlock:
     """Each sample the mean of k, at the last one's stamp: a sensor that averages."""
     whole = part(samples, 0, length(samples) // k * k)
     means = (column.reshape(-1, k, *column.shape[1:]).mean(axis=1) for column in whole[1:])
-    return inertial_block(whole.stamp_ns[k - 1 :: k].copy(), *means)
+    return ImuBlock(whole.stamp_ns[k - 1 :: k].copy(), *means)
 
 
 WAYS: dict[str, tuple[Lower, Params]] = {
