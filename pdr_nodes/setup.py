@@ -1,11 +1,21 @@
 from setuptools import find_packages, setup
 
 NAME = "pdr_nodes"
-NODES = ["imu_driver", "imu_ingestion", "stance_detector", "zupt_ekf"]
+NODES = [
+    "imu_driver",
+    "imu_ingestion",
+    "stance_detector",
+    "zupt_ekf",
+    "heading_fusion",
+    "gait_dr",
+    "mode_manager",
+    "chest_pdr",
+    "external_odometry",
+]
 
 setup(
     name=NAME,
-    version="0.4.0",
+    version="0.9.0",
     description="The ROS 2 nodes of the pedestrian dead reckoning suite.",
     maintainer="pdr maintainers",
     maintainer_email="pdr@example.org",

@@ -1,40 +1,45 @@
 """One foot on a stock ROS 2: `ros2 launch pdr_bringup_scripts foot.launch.py imu:=/your/imu`, and `mag:=/your/mag`.
 
+With `constraint:=dominant`, or another, heading_fusion holds the heading on straight lines: then the foot's nodes are
+in the namespace `foot`, and `odom`, `path` and the transform to base_footprint are of the person.
+With `adaptive:=true` mode_manager switches the gyro of a driver that offers `set_gyro_power`, wherever that is, and
+gait_dr reckons strides while it is off; with a constraint too it holds them itself, and no node moves.
 Needs the packages launch and launch_ros, which every ROS installation has.
 """
 
-from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
-from launch_ros.actions import Node
-from launch_ros.substitutions import FindPackageShare
+from pdr_bringup_scripts.launching import argument, description, of_person, of_sensor, person_node, sensor_nodes
 
 NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
+ADAPTIVE = ("imu_ingestion", "stance_detector", "gait_dr", "mode_manager")
+SERVICES = ("set_gyro_power", "set_sample_rate")  # of a driver whose gyro can be switched
+FOOT = "foot"  # the namespace of a foot whose heading is held
 
 
 def generate_launch_description():
-    defaults = PathJoinSubstitution([FindPackageShare("pdr_bringup_scripts"), "config", "foot.yaml"])
     arguments = [
-        DeclareLaunchArgument("imu", default_value="imu/data_raw", description="topic of your driver"),
-        DeclareLaunchArgument("mag", default_value="", description="topic of its magnetometer, if it has one"),
-        DeclareLaunchArgument("params", default_value=defaults, description="parameter file, see `pdr params`"),
-        DeclareLaunchArgument("namespace", default_value="", description="one per foot"),
-        DeclareLaunchArgument("foot_frame", default_value="foot", description="frame of the foot, one per foot"),
+        *of_sensor(),
+        *of_person(),
+        argument("foot_frame", "foot", "frame of the foot, one per foot"),
+        argument("constraint", "", "heading.constraint: dominant, hde ..."),
+        argument("adaptive", "false", "switch the gyro of the driver"),
+        *(argument(name, name, "service of your driver") for name in SERVICES),
+        argument("heading_feedback", "false", "another heading_fusion answers"),
     ]
-    return LaunchDescription([*arguments, OpaqueFunction(function=nodes)])
+    return description(arguments, nodes)
 
 
-def nodes(context):
-    """Return the nodes; a topic of a magnetometer says that there is one."""
-    mag = LaunchConfiguration("mag").perform(context)
-    given = {"node.foot_frame": LaunchConfiguration("foot_frame")} | ({"node.magnetometer": True} if mag else {})
-    return [
-        Node(
-            package="pdr_nodes",
-            executable=name,
-            namespace=LaunchConfiguration("namespace"),
-            parameters=[LaunchConfiguration("params"), given],
-            remappings=[("imu/data_raw", LaunchConfiguration("imu")), ("imu/mag", mag or "imu/mag")],
-        )
-        for name in NODES
-    ]
+def nodes(said):
+    """Return the nodes of the foot, and of the person where heading_fusion holds the heading."""
+    constraint, home, switched = said("constraint"), said("namespace"), said("adaptive") == "true"
+    asked = said("heading_feedback") == "true"
+    if switched and asked:
+        raise RuntimeError("adaptive does not go with a second foot")
+    given = {"node.foot_frame": said("foot_frame")}
+    if switched:  # gait_dr answers its steps itself
+        given |= {"heading.constraint": constraint} if constraint else {}
+        return sensor_nodes(ADAPTIVE, said, home, given, SERVICES)
+    given |= {"filter.heading_feedback": True} if constraint or asked else {}
+    if not constraint:
+        return sensor_nodes(NODES, said, home, given, SERVICES)
+    foot = sensor_nodes(NODES, said, f"{home}/{FOOT}".lstrip("/"), given, SERVICES)
+    return [*foot, person_node(said, {"node.feet": FOOT, "heading.constraint": constraint})]

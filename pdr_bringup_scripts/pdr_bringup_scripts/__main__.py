@@ -16,6 +16,7 @@ def command_line() -> None:
         evaluate,
         live,
         params,
+        record,
         replay,
         run,
         simulate,
@@ -30,7 +31,7 @@ def command_line() -> None:
         context_settings={"help_option_names": ["-h", "--help"]},
         pretty_exceptions_enable=False,
     )
-    for module in (demo, test, live, run, replay, simulate, convert, evaluate, compare, bench, params):
+    for module in (demo, test, live, record, run, replay, simulate, convert, evaluate, compare, bench, params):
         name = module.__name__.rsplit(".", 1)[-1]
         allowed = {"allow_extra_args": True, "ignore_unknown_options": True} if name == "test" else {}
         app.command(name, context_settings=allowed)(getattr(module, name))

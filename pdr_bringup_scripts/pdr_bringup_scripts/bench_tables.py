@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 
 from rich.box import SIMPLE
@@ -11,6 +12,7 @@ from rich.table import Table
 from pdr_core.bench.consistency import Consistency
 from pdr_core.bench.mechanisation import MechanisationError
 from pdr_core.bench.table_1 import Table1Result
+from pdr_core.evaluation.qiu_page import TitledTable
 
 WIDTH = 120
 
@@ -46,6 +48,16 @@ def table(title: str, *heads: str, names: int = 1) -> Table:
         else:
             empty.add_column(head, justify="right", no_wrap=True, min_width=len(head))
     return empty
+
+
+def show_titled(tables: Sequence[TitledTable], names: int = 1) -> None:
+    """Print tables of text."""
+    out = console()
+    for one in tables:
+        printed = table(one.title, *one.heads, names=names)
+        for row in one.rows:
+            printed.add_row(*row)
+        out.print(printed)
 
 
 def mechanisation_table(errors: list[MechanisationError]) -> Table:

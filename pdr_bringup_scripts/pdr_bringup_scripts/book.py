@@ -9,14 +9,16 @@ import numpy as np
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.conventions import NANOSECONDS
-from pdr_core.evaluation.gait_totals import gait_totals
+from pdr_core.evaluation.external import External
+from pdr_core.evaluation.gait_totals import GaitTotals, gait_totals
 from pdr_core.evaluation.report import write_report
 from pdr_core.evaluation.result import CAUSAL, Hindsight, Result
+from pdr_core.evaluation.saving import Saving
 from pdr_core.evaluation.score import Scorer, start_of_steps_m
 from pdr_core.evaluation.trace import Trace
 from pdr_core.evaluation.words import nothing_usable
 from pdr_core.params import Params, params_as_mapping
-from pdr_core.pipeline import FootGait, FootOutput
+from pdr_core.pipeline import BodySteps, FootGait, FootOutput
 from pdr_core.recording import Sensor, Session
 from pdr_core.recording.strides import write_strides
 from pdr_core.recording.tum import Trajectory, append_tum, write_tum_header
@@ -30,14 +32,26 @@ def make_folder(path: Path) -> None:
     """Create a folder, or say why that cannot be done."""
     try:
         path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise Problem(f"cannot write to {path}: it is a file, and a folder is needed") from error
     except OSError as error:
         raise Problem(f"cannot write to {path}: {error.strerror}") from error
 
 
 class Book:
-    """Takes every output of a run once; `out` is where its files go, None: nowhere."""
+    """Takes every output of a run once; `out` is where its files go, None: nowhere.
 
-    def __init__(self, session: Session, sensor: Sensor, out: Path | None, stack: ExitStack) -> None:
+    `gait` makes strides of its steps.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        sensor: Sensor,
+        out: Path | None,
+        stack: ExitStack,
+        gait: FootGait | BodySteps | None = None,
+    ) -> None:
         self._session = session
         self._scorer = Scorer(sensor.truth)
         self._trace = Trace()
@@ -46,7 +60,7 @@ class Book:
         self.duration_s = 0.0  # of the estimate; where the clock jumps back, nobody knows how much time passed
         self._last_ns: int | None = None
         self.steps: list[StepEvent] = []
-        self._gait = FootGait()
+        self._gait = gait or FootGait()
         self._strides: list[Stride] = []
         if out:
             make_folder(out)
@@ -80,6 +94,8 @@ class Book:
         seconds: float,
         notices: list[Notice],
         hindsight: Hindsight = CAUSAL,
+        saving: Saving | None = None,
+        external: External | None = None,
     ) -> Result:
         """Return the result and write the files; Problem if there was no usable sample."""
         if self._last_ns is None:
@@ -97,17 +113,25 @@ class Book:
             end_position_m=self._scorer.end_position_m,
             closure_2d_m=self._scorer.closure_2d_m,
             closure_3d_m=self._scorer.closure_3d_m,
-            gait=gait_totals(self._strides, self._gait.mounting) if self._strides else None,
+            gait=self._gait_totals(),
             seconds=seconds,
             notices=[*self._session.notices, *notices, *self._gait.notices],
             config=params_as_mapping(params),
             truth=self._scorer.score(self.steps, self._start_position_m),
             version=VERSION,
             commit=commit(),
+            saving=saving,
+            external=external,
         )
         if self._out:
             self._write_files(self._out, result)
         return result
+
+    def _gait_totals(self) -> GaitTotals | None:
+        """Return the totals of a foot's strides; None of a body's steps, or where there are none."""
+        if isinstance(self._gait, BodySteps) or not self._strides:
+            return None
+        return gait_totals(self._strides, self._gait.mounting)
 
     def _write_files(self, out: Path, result: Result) -> None:
         write_strides(out / "strides.csv", self._strides)

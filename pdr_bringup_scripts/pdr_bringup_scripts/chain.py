@@ -14,6 +14,7 @@ import yaml
 from pdr_bringup_scripts.problems import Problem
 
 NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
+ADAPTIVE = ("imu_ingestion", "stance_detector", "gait_dr", "mode_manager")  # of a foot whose gyro is switched
 DRIVER = "imu_driver"
 QUICK_DISCOVERY = Path(__file__).with_name("fastdds_quick.xml")
 GRACE_S = 5.0
@@ -32,7 +33,7 @@ class Chain:
         remapped: Mapping[str, Mapping[str, str]] | None = None,  # {node: {topic: its other name}}
     ) -> None:
         self._folder = folder
-        self._namespace = namespace
+        self.namespace = namespace
         self._nodes = nodes
         self._remapped = remapped or {}
         self._parameters = folder / "parameters.yaml"
@@ -51,16 +52,25 @@ class Chain:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """End them as Ctrl-C would."""
+        self.interrupt()
+        for process in self._processes.values():
+            end(process)
+
+    def interrupt(self) -> None:
+        """Ask all to end."""
         for process in self._processes.values():
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
-        for process in self._processes.values():
-            end(process)
+
+    @property
+    def has_driver(self) -> bool:
+        """A driver was started with the others."""
+        return DRIVER in self._processes
 
     @property
     def driver_is_done(self) -> bool:
         """A driver was started, has delivered everything and ended."""
-        return DRIVER in self._processes and self._processes[DRIVER].poll() is not None
+        return self.has_driver and self._processes[DRIVER].poll() is not None
 
     @property
     def pids(self) -> dict[str, int]:
@@ -76,7 +86,7 @@ class Chain:
     def _start(self, name: str) -> subprocess.Popen:
         command = [sys.executable, "-m", f"pdr_nodes.{name}_node", "--ros-args"]
         command += ["--params-file", str(self._parameters), "--log-level", "warn"]
-        names = {"__ns": f"/{self._namespace}", **self._remapped.get(name, {})}
+        names = {"__ns": f"/{self.namespace}", **self._remapped.get(name, {})}
         command += [part for topic, other in names.items() for part in ("-r", f"{topic}:={other}")]
         with (self._folder / f"{name}.log").open("w") as log:  # Ctrl-C is for us: the nodes end in order
             return subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)

@@ -1,44 +1,37 @@
 """Studies recordings one after the other; one that cannot be read does not stop the others."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
+from pdr_bringup_scripts.book import make_folder
 from pdr_bringup_scripts.options import known_name
 from pdr_bringup_scripts.problems import Problem
-from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_bringup_scripts.terminal import Bar, Terminal
-from pdr_core.bench.detectors import DETECTORS, study
 from pdr_core.bench.trial import NoSamples, Walk
-from pdr_core.evaluation.detector_page import detector_page
-from pdr_core.evaluation.detector_study import DetectorStudy
-from pdr_core.evaluation.detector_tables import as_csv, as_json
-from pdr_core.params import Params
-from pdr_core.pipeline.stance_phases import TIME_GATES
 from pdr_core.recording import RecordingError, Sensor, Session, open_recording
 from pdr_core.warmup import warm_up
-
-FILES = "compare.html, compare.csv, compare.json"
-
 
 S = TypeVar("S")
 Seen = Callable[[str], object]
 
 
-@dataclass(frozen=True)
-class DetectorJob:
-    """Which detectors are compared, and whether figures alone are wanted or pictures too."""
+class Comparison(Protocol[S]):
+    """What is compared: the study of one sensor, and how those of all are shown."""
 
-    params: Params
-    detectors: Sequence[str]
-    gates: Sequence[str]
-    deep: bool
-
-    def __call__(self, walk: Walk, seen: Seen) -> DetectorStudy:
+    def study(self, walk: Walk, seen: Seen) -> S:
         """Study one sensor."""
-        return study(walk, self.params, self.detectors, self.gates, self.deep, seen)
+
+    def show(self, studies: Sequence[S]) -> None:
+        """Print the tables."""
+
+    def as_json(self, studies: Sequence[S]) -> str:
+        """Return everything as one JSON object."""
+
+    def files(self, studies: Sequence[S]) -> Mapping[str, str]:
+        """Return the text of every file by its name."""
 
 
 @dataclass(frozen=True)
@@ -50,35 +43,45 @@ class Compared(Generic[S]):
     warnings: list[str] = field(default_factory=list)  # what could not be read of the others
 
 
-def chosen_detectors(text: str) -> list[str]:
-    """Return the detectors of a list with commas; Problem if one does not exist."""
-    return chosen(text, DETECTORS, "--detectors")
-
-
-def chosen_gates(text: str) -> list[str]:
-    """Return the time gates of a list with commas; Problem if one does not exist."""
-    return chosen(text, TIME_GATES, "--time-gates")
-
-
 def chosen(text: str, known: Sequence[str], option: str) -> list[str]:
-    """Return the names of a list, each once, or all that are known."""
+    """Return the names of a list with commas, each once, or all that are known; Problem if one does not exist."""
     names = [known_name(option, name.strip(), ("all", *known)) for name in text.split(",")]
     return list(known) if "all" in names else list(dict.fromkeys(names))
 
 
-def compared(
-    paths: Sequence[Path], columns: Path | None, job: Callable[[Walk, Seen], S], terminal: Terminal
-) -> Compared[S]:
+def compare_recordings(
+    paths: Sequence[Path], columns: Path | None, comparison: Comparison[Any], out: Path | None, json: bool
+) -> None:
+    """Study every sensor of every recording; print and write what came of it.
+
+    Problem, after all else, if some could not be read at all.
+    """
+    if out:
+        make_folder(out)
+    done = compared(paths, columns, comparison)
+    if done.studies and json:
+        print(comparison.as_json(done.studies))
+    elif done.studies:
+        comparison.show(done.studies)
+    if done.studies and out:
+        write_files(out, comparison.files(done.studies))
+    for warning in done.warnings:
+        Terminal().say(warning)
+    if done.problems:
+        raise Problem("\n".join(done.problems))
+
+
+def compared(paths: Sequence[Path], columns: Path | None, comparison: Comparison[S]) -> Compared[S]:
     """Study every sensor of every recording."""
     warm_up()
     done: Compared[S] = Compared()
-    with terminal.bar("Comparing", len(paths)) as bar:
+    with Terminal().bar("Comparing", len(paths)) as bar:
         for path, name in zip(paths, names(paths), strict=True):
             with noted(path, done.problems):
                 session = open_recording(path, column_map=columns)
                 for sensor in session.sensors.values():
                     with noted(path, done.problems):
-                        done.studies.append(studied(walk_of(session, sensor, name), job, bar))
+                        done.studies.append(studied(walk_of(session, sensor, name), comparison, bar))
                 done.warnings.extend(f"Warning: {name}: {notice.text.rstrip('.')}." for notice in session.notices)
             bar.advance()
     return done
@@ -107,22 +110,13 @@ def walk_of(session: Session, sensor: Sensor, name: str) -> Walk:
     return Walk(own_name, list(sensor.pieces()), sensor.truth)
 
 
-def studied(walk: Walk, job: Callable[[Walk, Seen], S], bar: Bar) -> S:
-    """Study one sensor."""
-    return job(walk, lambda what: bar.show(f"{walk.name}: {what}"))
+def studied(walk: Walk, comparison: Comparison[S], bar: Bar) -> S:
+    """Study one sensor and show how far it is."""
+    return comparison.study(walk, lambda what: bar.show(f"{walk.name}: {what}"))
 
 
-def write_files(out: Path, studies: Sequence[DetectorStudy], terminal: Terminal) -> None:
-    """Write the page and the figures into a folder that exists."""
-    page = detector_page(studies, VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_csv(studies), as_json(studies) + "\n"), strict=True):
+def write_files(out: Path, texts: Mapping[str, str]) -> None:
+    """Write texts by name into a folder that exists."""
+    for name, text in texts.items():
         (out / name).write_text(text, encoding="utf-8")
-    terminal.say(f"Written to {out}: {FILES}")
-
-
-def tell(done: Compared[S], terminal: Terminal) -> None:
-    """Say what could not be read of some recordings; Problem, after all else, if others could not be read at all."""
-    for warning in done.warnings:
-        terminal.say(warning)
-    if done.problems:
-        raise Problem("\n".join(done.problems))
+    Terminal().say(f"Written to {out}: {', '.join(texts)}")

@@ -12,9 +12,9 @@ from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
 
 from pdr_core.recording.bag_writer import BagWriter
-from pdr_nodes.qos import OWN, STATUS
+from pdr_nodes.qos import ANSWERS, MODES, OWN, STATUS
 
-TOPICS = {
+OF_A_FOOT = {
     "imu/data_raw": "sensor_msgs/msg/Imu",
     "imu/mag": "sensor_msgs/msg/MagneticField",
     "ground_truth": "geometry_msgs/msg/PoseStamped",
@@ -22,9 +22,13 @@ TOPICS = {
     "odom": "nav_msgs/msg/Odometry",
     "step": "pdr_msgs/msg/StepEvent",
     "filter_health": "pdr_msgs/msg/FilterHealth",
-    "diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
 }
-STATUS_TOPICS = ("filter_health", "diagnostics")  # go on while there are no samples
+OF_A_SWITCHED_FOOT = {"walk": "pdr_msgs/msg/WalkStatus", "mode": "pdr_msgs/msg/NavigationMode"}
+OF_A_PERSON = {"odom": "nav_msgs/msg/Odometry"}
+OF_ALL = {"diagnostics": "diagnostic_msgs/msg/DiagnosticArray"}
+# the last parts of topics that go on while there are no samples
+STATUS_TOPICS = ("filter_health", "diagnostics", "mode")
+QOS = {"filter_health": STATUS, "diagnostics": STATUS, "mode": MODES, "walk": ANSWERS}  # by the last part; others: OWN
 
 
 class Listener(Node):
@@ -33,7 +37,7 @@ class Listener(Node):
     def __init__(self, take: Callable[[str, str, bytes], None], namespace: str, topics: Mapping[str, str]) -> None:
         super().__init__("pdr_listener", namespace=f"/{namespace}")
         for topic, name in topics.items():
-            qos = STATUS if topic in STATUS_TOPICS else OWN
+            qos = QOS.get(topic.rpartition("/")[2], OWN)
             address = "/diagnostics" if topic == "diagnostics" else topic
             self.create_subscription(message_class(name), address, self._to(take, topic, name), qos, raw=True)
 
@@ -45,9 +49,7 @@ class Listener(Node):
 class Ears:
     """A context manager around a listener, spun by `listen`."""
 
-    def __init__(
-        self, take: Callable[[str, str, bytes], None], namespace: str, topics: Mapping[str, str] = TOPICS
-    ) -> None:
+    def __init__(self, take: Callable[[str, str, bytes], None], namespace: str, topics: Mapping[str, str]) -> None:
         self._take = take
         self._namespace = namespace
         self._topics = topics
@@ -62,11 +64,18 @@ class Ears:
 
     def __exit__(self, *_: object) -> None:
         """Leave the graph."""
+        self._executor.shutdown()
+        self.node.destroy_node()
         rclpy.try_shutdown()
 
     def listen(self, timeout_s: float) -> None:
         """Serve what comes within a time."""
         self._executor.spin_once(timeout_sec=timeout_s)
+
+
+def is_status(topic: str) -> bool:
+    """Tell whether a topic goes on while there are no samples."""
+    return topic.rpartition("/")[2] in STATUS_TOPICS
 
 
 def message_class(name: str) -> type:
@@ -82,5 +91,10 @@ def message(name: str, cdr: bytes) -> object:
 
 def bag_writer(path: Path) -> BagWriter:
     """Return a writer that knows our own messages."""
+    return BagWriter(path, own_definitions())
+
+
+def own_definitions() -> dict[str, str]:
+    """Return the texts of our own messages by type."""
     folder = Path(get_package_share_directory("pdr_msgs")) / "msg"
-    return BagWriter(path, {f"pdr_msgs/msg/{p.stem}": p.read_text() for p in sorted(folder.glob("*.msg"))})
+    return {f"pdr_msgs/msg/{p.stem}": p.read_text() for p in sorted(folder.glob("*.msg"))}

@@ -1,59 +1,61 @@
-"""Runs the nodes on a device, records what they say, and judges the recording."""
+"""Runs the nodes on devices, records what they say, and judges the recording."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from shutil import rmtree
 from typing import Any
 
-from pdr_bringup_scripts.book import Book, make_folder
-from pdr_bringup_scripts.chain import NAMESPACE, Chain, stay_on_this_machine
-from pdr_bringup_scripts.listener import STATUS_TOPICS, Ears, bag_writer, message
-from pdr_bringup_scripts.live_recording import notices, outputs
+from pdr_bringup_scripts.book import make_folder
+from pdr_bringup_scripts.cast import Cast
+from pdr_bringup_scripts.chain import NAMESPACE, stay_on_this_machine
+from pdr_bringup_scripts.judging import BAG, judge
+from pdr_bringup_scripts.listener import Ears, bag_writer, is_status, message
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
-from pdr_core.evaluation.result import Result
-from pdr_core.params import Params, params_as_mapping
-from pdr_core.recording import Sensor, open_recording
+from pdr_core.evaluation.result import Result, SensorsResult
+from pdr_core.params import Params
+from pdr_core.recording import Sensor
 from pdr_core.recording.bag_writer import BagWriter
-from pdr_core.records import length
 from pdr_core.simulation import walk_duration_s
 from pdr_core.warmup import warm_up
 from pdr_nodes.convert import stamp_ns
 
-PIPELINE = "foot_inertial, live"
-BAG = "recording"
 LISTENERS = 2  # of the driver's samples: ingestion and the recording
-AFTERWARDS_S = 1.5  # beyond the time after which the nodes give out what waits
+AFTERWARDS_S = 1.5  # for the last words of nodes that were asked to end
+IDLE_TIMES = 3.0  # of `node.idle_s`: after twice that the last node gives out what waits, once it has looked twice
+MARGIN_S = 0.5
 NOTHING_S = 30.0
 FIELD_WAIT_S = 10.0  # the longest
 FIELD_IDLE_S = 4.0  # on a busy machine one of two topics may lag behind the other by more than the usual second
+FEET_IDLE_S = 2.0  # for the same reason, of two feet
 IDLE_MAX_S = 10.0
 SHOW_EVERY = 20  # odometry messages
-SAMPLES = "/imu/data_raw"  # in the recording
+SAMPLES = "/imu/data_raw"  # how their topics end in the recording
 
 
 def live_run(
-    params: Params,
+    cast: Cast,
     out: Path,
     domain: int | None,
     terminal: Terminal,
-    source: Sensor | None = None,
+    sources: Mapping[str, Sensor] | None = None,
     namespace: str = NAMESPACE,
-) -> Result:
-    """Run driver, ingestion, stance detection and filter as processes until the device ends; fill the folder `out`.
+) -> Result | SensorsResult:
+    """Run all nodes as processes until the devices end; fill the folder `out`.
 
-    The truth is that of `source`, the sensor that is replayed, or what the driver said of it.
+    The truth is that of `sources`, the sensors that are replayed, by foot, or what the drivers said of it.
     """
     make_run_folder(out)
-    params = for_one_run(params)
-    warm_up(params)  # so that the nodes need not compile, each for itself
+    cast = cast.with_params(for_one_run).that_begins_together(namespace)
+    for params in cast.feet.values():  # so that the nodes need not compile, each for itself
+        warm_up(params, both=bool(cast.person), adaptive=cast.adaptive)
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", domain)
-    record(params, out, namespace, terminal)
-    return judge(params, out, time.monotonic() - begin, source, namespace)
+    record(cast, out, namespace, terminal)
+    return judge(cast, out, time.monotonic() - begin, sources or {}, namespace)
 
 
 def make_run_folder(out: Path) -> None:
@@ -71,7 +73,7 @@ def new_recording(path: Path) -> Iterator[BagWriter]:
         with bag:
             yield bag
     finally:
-        if SAMPLES not in bag.topics:
+        if not any(topic.endswith(SAMPLES) for topic in bag.topics):
             rmtree(path, ignore_errors=True)
 
 
@@ -81,31 +83,42 @@ def for_one_run(params: Params) -> Params:
     Played slowly, a stream is idle after a longer time. Our driver says of each sample whether it has a field.
     """
     slowness = max(1.0, 1.0 / params.driver.rate_factor) if params.driver.rate_factor else 1.0
-    least_s = FIELD_IDLE_S if params.node.magnetometer else 0.0
+    least_s = max(FIELD_IDLE_S * params.node.magnetometer, FEET_IDLE_S * params.filter.heading_feedback)
     idle_s = min(max(params.node.idle_s, least_s) * slowness, IDLE_MAX_S)
     node = replace(params.node, input_reliable=True, autostart=True, idle_s=idle_s, answer_timeout_s=0.0)
     node = replace(node, field_wait_s=FIELD_WAIT_S)
     return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
 
 
-def record(params: Params, out: Path, namespace: str, terminal: Terminal) -> None:
+def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
     """Run the nodes and write all they say to a bag."""
+    params = next(iter(cast.feet.values()))
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
         bag = stack.enter_context(new_recording(out / BAG))
         watch = Watch(bag.write, show, total(params))
-        ears = stack.enter_context(Ears(watch.take, namespace))
-        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), namespace))
-        while not (chain.driver_is_done and watch.quiet_s > quiet_for_good_s(params)):
+        ears = stack.enter_context(Ears(watch.take, namespace, cast.topics))
+        chains = stack.enter_context(cast.chains(out / "nodes", namespace, driver=True))
+        while not (chains.drivers_are_done and watch.quiet_s > quiet_for_good_s(cast)):
             ears.listen(0.1)
-            chain.check()
+            chains.check()
             if watch.quiet_s > NOTHING_S:
                 raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
+        if len(cast.feet) > 1:
+            chains.end_feet()
+            listen_for(ears, AFTERWARDS_S)
 
 
-def quiet_for_good_s(params: Params) -> float:
-    """Return the silence [s] after which nothing more comes: the nodes have given out what waited."""
-    return 2.0 * params.node.idle_s + AFTERWARDS_S
+def listen_for(ears: Ears, seconds: float) -> None:
+    """Hear what is still said."""
+    end_s = time.monotonic() + seconds
+    while time.monotonic() < end_s:
+        ears.listen(0.1)
+
+
+def quiet_for_good_s(cast: Cast) -> float:
+    """Return the silence [s] after which the feet say nothing more: they have given out what waited."""
+    return IDLE_TIMES * max(params.node.idle_s for params in cast.feet.values()) + MARGIN_S
 
 
 class Watch:
@@ -128,9 +141,9 @@ class Watch:
     def take(self, topic: str, name: str, cdr: bytes) -> None:
         """Take one message."""
         self._write(f"/{topic}", name, time.time_ns(), cdr)
-        if topic not in STATUS_TOPICS:
+        if not is_status(topic):
             self._last_s = time.monotonic()
-        self._steps += topic == "step"
+        self._steps += topic.rpartition("/")[2] == "step"
         self._odometry += topic == "odom"
         if topic == "odom" and self._odometry % SHOW_EVERY == 0:
             self._show_estimate(message(name, cdr))
@@ -148,15 +161,3 @@ def total(params: Params) -> str:
     if params.driver.device != "simulated":
         return ""
     return f" of {walk_duration_s(params.simulation):.0f}"
-
-
-def judge(params: Params, out: Path, seconds: float, source: Sensor | None, namespace: str) -> Result:
-    """Compare what the nodes said with the truth, and write the files of the run."""
-    session = open_recording(out / BAG)
-    (sensor,) = session.sensors.values()
-    with ExitStack() as stack:
-        book = Book(session, source or sensor, out, stack)
-        for output in outputs(out / BAG, params.node.odom_rate_hz):
-            book.keep(output)
-        samples = sum(length(piece) for piece in sensor.pieces())
-        return book.close(PIPELINE, params, samples, seconds, notices(out / BAG, namespace))

@@ -7,25 +7,26 @@ from typing import Any
 
 import numpy as np
 
+from pdr_bringup_scripts.cast import below
 from pdr_bringup_scripts.problems import Problem
 from pdr_core.pipeline import FootOutput
-from pdr_core.records import Notice, joined
+from pdr_core.rate_limit import RateLimit
+from pdr_core.records import NavBlock, Notice, joined
 from pdr_nodes.convert import nav_block, stamp_ns, stance_block, step_event
 from pdr_nodes.notice_board import NO_FIELD, NO_INPUT, ORIENTATION, notices_from
-from pdr_nodes.rate_limit import RateLimit
 
 PIECE = 5000
 
 
-def outputs(bag: Path, odom_rate_hz: float) -> Iterator[FootOutput]:
-    """Yield the estimates in pieces, each with its verdict, and all steps with the first piece.
+def outputs(bag: Path, foot: str, odom_rate_hz: float) -> Iterator[FootOutput]:
+    """Yield the estimates of a foot in pieces, each with its verdict, and all steps with the first piece.
 
     Of the estimates, at most so many a second are said: which ones, the stamps of the verdicts tell.
     """
-    steps = [step_event(m) for m in messages(bag, "step")]
+    steps = [step_event(m) for m in messages(bag, below(foot, "step"))]
     limit = RateLimit(odom_rate_hz)
-    said = (m for m in messages(bag, "stance") if limit.allows(stamp_ns(m.imu.header.stamp)))
-    pairs = zip_longest(said, messages(bag, "odom"))
+    said = (m for m in messages(bag, below(foot, "stance")) if limit.allows(stamp_ns(m.imu.header.stamp)))
+    pairs = zip_longest(said, messages(bag, below(foot, "odom")))
     while piece := list(islice(pairs, PIECE)):
         if None in piece[-1]:
             raise Problem(f"{bag}: verdicts and estimates are not as many: messages were lost on the way")
@@ -37,23 +38,35 @@ def outputs(bag: Path, odom_rate_hz: float) -> Iterator[FootOutput]:
         steps = []
 
 
-def notices(bag: Path, namespace: str) -> list[Notice]:
-    """Return the last word of every node of our namespace on what was wrong with the track: anybody speaks there.
+def body(bag: Path) -> Iterator[NavBlock]:
+    """Yield the estimates of the person between two feet in pieces."""
+    said = messages(bag, "odom")
+    while piece := list(islice(said, PIECE)):
+        yield joined([nav_block(odometry) for odometry in piece])
 
-    That samples and fields have come to their end is not wrong.
+
+def notices(bag: Path, begin: str) -> list[Notice]:
+    """Return the last word of every node whose full name begins so, on what was wrong: anybody speaks there.
+
+    That samples, fields and estimates have come to their end is not wrong, and orientation is not the track.
     """
     spoken = (status for m in messages(bag, "diagnostics") for status in m.status)
-    ours = (status for status in spoken if status.name.startswith(f"{namespace}/"))
+    ours = (status for status in spoken if status.name.startswith(begin))
     last = {status.name: status for status in ours if not status.name.endswith(f": {ORIENTATION}")}
     found = [notice for status in last.values() for notice in notices_from(status.values)]
-    return [notice for notice in found if notice.kind not in (NO_INPUT, NO_FIELD)]
+    return [notice for notice in found if not notice.kind.startswith((NO_INPUT, NO_FIELD))]
 
 
 def messages(bag: Path, topic: str) -> Iterator[Any]:
     """Yield the messages of a topic, named without its leading slash, in the order in which they came."""
+    return (message for _, message in timed_messages(bag, topic))
+
+
+def timed_messages(bag: Path, topic: str) -> Iterator[tuple[int, Any]]:
+    """Yield the messages with the time of the wall clock at which they came [ns]."""
     from rosbags.highlevel import AnyReader
 
     with AnyReader([bag]) as reader:
         connections = [c for c in reader.connections if c.topic.strip("/") == topic]
-        for connection, _, raw in reader.messages(connections=connections) if connections else ():
-            yield reader.deserialize(raw, connection.msgtype)
+        for connection, came_ns, raw in reader.messages(connections=connections) if connections else ():
+            yield came_ns, reader.deserialize(raw, connection.msgtype)

@@ -6,14 +6,14 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pdr_bringup_scripts.chain import DRIVER, NODES, Chain, stay_on_this_machine
+from pdr_bringup_scripts.cast import Cast, below, one_foot
+from pdr_bringup_scripts.chain import DRIVER, stay_on_this_machine
 from pdr_bringup_scripts.interrupt import Interrupt
-from pdr_bringup_scripts.listener import TOPICS, Ears
+from pdr_bringup_scripts.judging import BAG, judge
+from pdr_bringup_scripts.listener import Ears
 from pdr_bringup_scripts.live import (
-    BAG,
     FIELD_WAIT_S,
     Watch,
-    judge,
     make_run_folder,
     new_recording,
     quiet_for_good_s,
@@ -21,8 +21,8 @@ from pdr_bringup_scripts.live import (
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.relay import INPUT, MAG_INPUT, DriverTopics, Relay
 from pdr_bringup_scripts.terminal import Terminal
-from pdr_core.evaluation.result import Result
-from pdr_core.params import Params, params_as_mapping
+from pdr_core.evaluation.result import Result, SensorsResult
+from pdr_core.params import Params
 from pdr_core.warmup import warm_up
 
 PATIENCE_S = 5.0  # without a sample, before we say so
@@ -51,47 +51,48 @@ def checked_topic(name: str, namespace: str) -> str:
     return topic
 
 
-def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> Result:
+def run_on_driver(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> Result | SensorsResult:
     """Estimate what a driver publishes until Ctrl-C, the duration or our own driver ends it; fill the folder `out`."""
     make_run_folder(out)
     node = replace(params.node, input_reliable=True, autostart=True, magnetometer=bool(job.topics.mag))  # the relay's
     wait_s = FIELD_WAIT_S if job.own_driver else node.field_wait_s
     params = replace(params, node=replace(node, field_wait_s=wait_s))
     warm_up(params)
-    begin = time.monotonic()
+    begin, cast = time.monotonic(), one_foot(params)
     stay_on_this_machine(out / "nodes", None)
-    record(params, job, out, terminal)
-    return judge(params, out, time.monotonic() - begin, None, job.namespace)
+    record(cast, job, out, terminal)
+    return judge(cast, out, time.monotonic() - begin, {}, job.namespace)
 
 
-def record(params: Params, job: LiveJob, out: Path, terminal: Terminal) -> None:
+def record(cast: Cast, job: LiveJob, out: Path, terminal: Terminal) -> None:
     """Run the nodes and write all they hear and say to a bag; Problem if no sample came."""
-    ours = {name: kind for name, kind in TOPICS.items() if name not in (INPUT, MAG_INPUT)}
+    (foot,) = cast.feet
+    inputs = below(foot, INPUT), below(foot, MAG_INPUT)
+    ours = {name: kind for name, kind in cast.topics.items() if name not in inputs}
     with ExitStack() as stack:
         interrupt = stack.enter_context(Interrupt())
         show = stack.enter_context(terminal.progress("Listening"))
         bag = stack.enter_context(new_recording(out / BAG))
         watch = Watch(bag.write, show, "")
         ears = stack.enter_context(Ears(watch.take, job.namespace, ours))
-        relay = Relay(ears.node, job.topics, watch.take)
-        nodes = (*NODES, DRIVER) if job.own_driver else NODES
+        relay = Relay(ears.node, job.topics, watch.take, foot)
         remapped = {DRIVER: {INPUT: job.topics.imu, **({MAG_INPUT: job.topics.mag} if job.topics.mag else {})}}
-        chain = stack.enter_context(Chain(out / "nodes", params_as_mapping(params), job.namespace, nodes, remapped))
-        begin, silence, quiet_s = time.monotonic(), Silence(relay, terminal), quiet_for_good_s(params)
-        while not (interrupt.asked or over(job, relay, begin) or (chain.driver_is_done and watch.quiet_s > quiet_s)):
+        chains = stack.enter_context(cast.chains(out / "nodes", job.namespace, job.own_driver, remapped))
+        begin, silence, quiet_s = time.monotonic(), Silence(relay, terminal), quiet_for_good_s(cast)
+        while not (interrupt.asked or over(job, relay, begin) or (chains.drivers_are_done and watch.quiet_s > quiet_s)):
             ears.listen(0.1)
-            chain.check()
+            chains.check()
             silence.look()
         relay.close()
         if relay.first_s is None:
-            chain.check()
+            chains.check()
             raise Problem(relay.why_silent())
         if relay.lacks_field:
             terminal.say(f"pdr: no messages on {job.topics.mag}: this walk is estimated without the magnetic field")
         show("ending: the nodes give out what they still hold")
         while watch.quiet_s < quiet_s:
             ears.listen(0.1)
-            chain.check()
+            chains.check()
 
 
 def over(job: LiveJob, relay: Relay, begin_s: float) -> bool:

@@ -1,75 +1,33 @@
-"""Estimates recordings offline, piece by piece, in bounded memory."""
+"""Estimates one sensor of a recording offline, piece by piece, in bounded memory: a function for each pipeline."""
 
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
-from pathlib import Path
 from typing import TypeVar
 
 from pdr_bringup_scripts.book import Book
 from pdr_bringup_scripts.problems import Problem
+from pdr_bringup_scripts.run_options import RunOptions
 from pdr_bringup_scripts.terminal import Terminal
-from pdr_core.evaluation.result import CAUSAL, Hindsight, Result, SensorsResult
+from pdr_core.evaluation.result import CHEST, Result
+from pdr_core.evaluation.saving import Saving
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial, SmoothedFoot, stance_phases
+from pdr_core.pipeline import (
+    BodySteps,
+    ChestCard,
+    ConstrainedFoot,
+    FootAdaptive,
+    FootInertial,
+    SmoothedFoot,
+    stance_phases,
+)
+from pdr_core.pipeline.constrained_foot import constrains
 from pdr_core.recording import Sensor, Session
 from pdr_core.records import Floats, length
 from pdr_core.warmup import warm_up
 
 T = TypeVar("T")
-PIPELINE = "foot_inertial"
-
-
-def run_recording(
-    session: Session,
-    params: Params,
-    sensor: str | None,
-    out: Path | None,
-    terminal: Terminal,
-    hindsight: Hindsight = CAUSAL,
-) -> Result | SensorsResult:
-    """Estimate one sensor of a recording, or all of them; `out` gets the files, in folders where there are several."""
-    chosen = chosen_sensors(session, sensor)
-    check_output(out, session)
-    warm_up(params, hindsight.smoothed)
-    run = run_sensor_smoothed if hindsight.smoothed else run_sensor
-    if len(chosen) == 1:
-        return run(session, chosen[0], params, out, terminal, hindsight.two_passes)
-    results = {
-        s.name: run(session, s, params, out / s.name if out else None, terminal, hindsight.two_passes) for s in chosen
-    }
-    together = SensorsResult(str(session.path), session.format, results)
-    if out:
-        (out / "result.json").write_text(together.to_json() + "\n")
-    return together
-
-
-def check_output(out: Path | None, session: Session) -> None:
-    """Problem if the folder for the files is the recording."""
-    if out and out.resolve() == session.path.resolve():
-        raise Problem(f"{out} is the recording itself: choose another folder by --out")
-
-
-def chosen_sensors(session: Session, name: str | None) -> list[Sensor]:
-    """Return the sensor that is asked for, or all."""
-    if name is None:
-        return list(session.sensors.values())
-    if name not in session.sensors:
-        raise Problem(f"{session.path} has no sensor {name!r}; choose from {', '.join(session.sensors)}")
-    return [session.sensors[name]]
-
-
-def only_sensor(session: Session, name: str) -> Sensor:
-    """Return the sensor of that name, or the only one of a recording."""
-    sensors = chosen_sensors(session, name or None)
-    if len(sensors) > 1:
-        raise Problem(f"{session.path} has several sensors; choose one by --sensor: {', '.join(session.sensors)}")
-    return sensors[0]
-
-
-def has_magnetometer(sensor: Sensor) -> bool:
-    """Tell whether any sample has a magnetic field; read up to there."""
-    return any((piece.field_sd_tesla >= 0.0).any() for piece in sensor.pieces())
+PIPELINE, ADAPTIVE = "foot_inertial", "foot_adaptive"
 
 
 class Watch:
@@ -86,43 +44,72 @@ class Watch:
         return result
 
 
-def run_sensor(
-    session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal, two_passes: bool = False
-) -> Result:
-    """Estimate one sensor and write its files; `two_passes`: the time gate knows the whole recording."""
-    watch, samples = Watch(), 0
-    pipeline = FootInertial(params, phases_s=first_pass(sensor, params, watch) if two_passes else None)
+def run_foot(session: Session, sensor: Sensor, params: Params, options: RunOptions) -> Result:
+    """Estimate a foot as it walks."""
+    warm_up(params)
+    watch = Watch()
+    pipeline = ConstrainedFoot(params, phases(sensor, params, options, watch))
     with ExitStack() as stack:
-        book = Book(session, sensor, out, stack)
-        show = stack.enter_context(terminal.progress(f"Estimating {sensor.name}"))
+        book = Book(session, sensor, options.out, stack)
+        samples = estimate(pipeline, sensor, book, watch)
+        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, options.hindsight)
+
+
+def run_adaptive(session: Session, sensor: Sensor, params: Params, options: RunOptions) -> Result:
+    """Estimate a foot as if its gyro had been switched."""
+    warm_up(params)
+    watch, pipeline = Watch(), FootAdaptive(params)
+    with ExitStack() as stack:
+        book = Book(session, sensor, options.out, stack)
+        samples = estimate(pipeline, sensor, book, watch)
+        saving = Saving(pipeline.energy, pipeline.commands)
+        return book.close(ADAPTIVE, params, samples, watch.seconds, pipeline.notices, saving=saving)
+
+
+def run_chest(session: Session, sensor: Sensor, params: Params, options: RunOptions) -> Result:
+    """Estimate a card on the chest."""
+    ChestCard(params).warm_up()
+    watch, pipeline = Watch(), ChestCard(params)
+    with ExitStack() as stack:
+        book = Book(session, sensor, options.out, stack, BodySteps())
+        samples = estimate(pipeline, sensor, book, watch)
+        return book.close(CHEST, params, samples, watch.seconds, pipeline.notices)
+
+
+def run_smoothed(session: Session, sensor: Sensor, params: Params, options: RunOptions) -> Result:
+    """Estimate a foot by its whole recording; Problem if a heading constraint would turn it while it goes on."""
+    if constrains(params):
+        text = "--smooth knows nothing of what a heading constraint tells the filter: leave out --smooth or --heading"
+        raise Problem(f"{text}, or set heading.constraint: none in the parameter file")
+    warm_up(params, smooth=True)
+    watch, samples = Watch(), 0
+    pipeline = SmoothedFoot(params, phases(sensor, params, options, watch))
+    with ExitStack() as stack:
+        book = Book(session, sensor, options.out, stack)
+        with Terminal().progress(f"Estimating {sensor.name}") as show:
+            for piece in sensor.pieces():
+                watch(pipeline.run, piece)
+                samples += length(piece)
+                show(f"{samples} samples, {len(pipeline.steps)} strides")
+        show = stack.enter_context(Terminal().progress(f"Smoothing {sensor.name}"))
+        outputs = pipeline.finish(lambda share: show(f"{share:.0%}"))
+        while output := watch(next, outputs, None):
+            book.keep(output)
+        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, options.hindsight)
+
+
+def estimate(pipeline: FootInertial | FootAdaptive | ChestCard, sensor: Sensor, book: Book, watch: Watch) -> int:
+    """Let the book keep what a pipeline makes of a sensor; return the number of samples."""
+    samples = 0
+    with Terminal().progress(f"Estimating {sensor.name}") as show:
         for piece in sensor.pieces():
             book.keep(watch(pipeline.run, piece))
             samples += length(piece)
             show(f"{book.duration_s:.0f} s of the recording, {len(book.steps)} strides")
         book.keep(pipeline.finish())
-        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, Hindsight(two_passes=two_passes))
+    return samples
 
 
-def first_pass(sensor: Sensor, params: Params, watch: Watch) -> Floats:
-    """Return how long the stances of the whole recording last, (n,) [s]; what this takes includes the reading."""
-    return watch(stance_phases, sensor.pieces(), params)
-
-
-def run_sensor_smoothed(
-    session: Session, sensor: Sensor, params: Params, out: Path | None, terminal: Terminal, two_passes: bool = False
-) -> Result:
-    """Estimate one sensor by its whole recording and write its files; `two_passes`: the time gate knows it too."""
-    watch, samples = Watch(), 0
-    pipeline = SmoothedFoot(params, first_pass(sensor, params, watch) if two_passes else None)
-    with ExitStack() as stack:
-        book = Book(session, sensor, out, stack)
-        with terminal.progress(f"Estimating {sensor.name}") as show:
-            for piece in sensor.pieces():
-                watch(pipeline.run, piece)
-                samples += length(piece)
-                show(f"{samples} samples, {len(pipeline.steps)} strides")
-        show = stack.enter_context(terminal.progress(f"Smoothing {sensor.name}"))
-        outputs = pipeline.finish(lambda share: show(f"{share:.0%}"))
-        while output := watch(next, outputs, None):
-            book.keep(output)
-        return book.close(PIPELINE, params, samples, watch.seconds, pipeline.notices, Hindsight(True, two_passes))
+def phases(sensor: Sensor, params: Params, options: RunOptions, watch: Watch) -> Floats | None:
+    """Return how long the stances last, (n,) [s], by a first pass with its reading; None if the time gate learns it."""
+    return watch(stance_phases, sensor.pieces(), params) if options.hindsight.two_passes else None

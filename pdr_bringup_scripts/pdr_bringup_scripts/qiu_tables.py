@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pdr_bringup_scripts.bench_tables import console, table
+from pdr_bringup_scripts.bench_tables import show_titled
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.bench.qiu_tables import Cost, Means, means, of
 from pdr_core.bench.qiu_walks import METHODS, Measured, QiuResult
@@ -31,12 +31,7 @@ def figures(r: QiuResult) -> dict[str, object]:
 
 def show(walks: Sequence[Measured], costs: Sequence[Cost]) -> None:
     """Print the tables."""
-    out = console()
-    for one in tables([w.result for w in walks], costs):
-        printed = table(one.title, *one.heads)
-        for row in one.rows:
-            printed.add_row(*row)
-        out.print(printed)
+    show_titled(tables([w.result for w in walks], costs))
 
 
 def tables(results: Sequence[QiuResult], costs: Sequence[Cost]) -> list[TitledTable]:

@@ -8,10 +8,14 @@ from typing import NamedTuple
 from rclpy.node import Node
 from sensor_msgs.msg import Imu, MagneticField
 
+from pdr_bringup_scripts.cast import below
 from pdr_nodes.qos import OWN, driver_input
 
 IMU, MAG = "sensor_msgs/msg/Imu", "sensor_msgs/msg/MagneticField"
-INPUT, MAG_INPUT = "imu/data_raw", "imu/mag"  # what the topics are called in our namespace and in the recording
+INPUT, MAG_INPUT = (
+    "imu/data_raw",
+    "imu/mag",
+)  # in the namespace of the foot, and in the recording
 SHOWN = 12
 
 
@@ -26,18 +30,21 @@ class DriverTopics(NamedTuple):
 class Relay:
     """Subscribes once: a second subscriber of a best-effort driver might begin, end or lose samples elsewhere."""
 
-    def __init__(self, node: Node, topics: DriverTopics, take: Callable[[str, str, bytes], None]) -> None:
+    def __init__(
+        self, node: Node, topics: DriverTopics, take: Callable[[str, str, bytes], None], foot: str = ""
+    ) -> None:
         self._node = node
+        self._input, self._mag_input = below(foot, INPUT), below(foot, MAG_INPUT)
         self._topics = topics
         self._take = take
         self._closed = False
         self.first_s: float | None = None  # when the first sample came
         self.lacks_field = bool(topics.mag)  # a field is expected and none has come yet
-        self._publisher = node.create_publisher(Imu, INPUT, OWN)
+        self._publisher = node.create_publisher(Imu, self._input, OWN)
         qos = driver_input(topics.reliable)
         node.create_subscription(Imu, topics.imu, self._pass_on, qos, raw=True)
         if topics.mag:
-            self._fields = node.create_publisher(MagneticField, MAG_INPUT, OWN)
+            self._fields = node.create_publisher(MagneticField, self._mag_input, OWN)
             node.create_subscription(MagneticField, topics.mag, self._pass_field_on, qos, raw=True)
 
     def close(self) -> None:
@@ -72,10 +79,10 @@ class Relay:
         if self.first_s is None:
             self.first_s = time.monotonic()
         self._publisher.publish(cdr)
-        self._take(INPUT, IMU, cdr)
+        self._take(self._input, IMU, cdr)
 
     def _pass_field_on(self, cdr: bytes) -> None:
         if not self._closed:
             self.lacks_field = False
             self._fields.publish(cdr)
-            self._take(MAG_INPUT, MAG, cdr)
+            self._take(self._mag_input, MAG, cdr)

@@ -9,7 +9,7 @@ from pdr_bringup_scripts.bench_tables import console, table
 from pdr_core.bench.stress import StressResult, summary
 
 
-def stress_as_json(results: list[StressResult]) -> str:
+def as_json(results: list[StressResult]) -> str:
     """Return the summary and every walk as one JSON object."""
     walks = [
         {"seed": r.drawn.seed, "ate2_percent": r.ate2_percent, "notices": r.notices, "drawn": r.drawn.text}
@@ -18,7 +18,7 @@ def stress_as_json(results: list[StressResult]) -> str:
     return json.dumps({"summary": [asdict(row) for row in summary(results)], "walks": walks}, indent=2)
 
 
-def show_stress(results: list[StressResult]) -> None:
+def show(results: list[StressResult]) -> None:
     """Print the table, and of every walk that failed what was drawn."""
     out = console()
     out.print(stress_table(results))

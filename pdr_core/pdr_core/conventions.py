@@ -13,6 +13,8 @@ import numpy as np
 NANOSECONDS = 1_000_000_000
 STANDARD_GRAVITY_MPS2 = 9.80665
 GAP_NS = 100_000_000  # a longer time between two samples is a gap: nobody knows what the foot did in it
+EARTH_FIELD_TESLA = (22e-6, 67e-6)  # weakest and strongest on the ground (World Magnetic Model 2025)
+UNKNOWN_RATE_SD_RADPS = 10.0  # of a foot whose gyro is off
 NO_STAMP = -(2**63)  # says "none"; stamps themselves may be negative, where a recording counts from a later moment
 
 

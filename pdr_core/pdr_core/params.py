@@ -1,7 +1,7 @@
 """Every parameter of the suite: one class per stage, one field per parameter.
 
-Those of stance detection and estimators are in `params_foot.py`, `params_detectors.py` and `params_attitude.py`. YAML
-files, ROS declarations and the tables of the documentation are generated from here (see `parameter.py`).
+Those of stance detection and estimators are in the files `params_*.py` beside it. YAML files, ROS declarations and the
+tables of the documentation are generated from here (see `parameter.py`).
 """
 
 from collections.abc import Mapping
@@ -11,9 +11,17 @@ from typing import Any
 from pdr_core.parameter import ParameterError, from_mapping, parameter
 from pdr_core.params_attitude import AttitudeParams as AttitudeParams
 from pdr_core.params_attitude import DedriftParams as DedriftParams
+from pdr_core.params_chest import ChestParams as ChestParams
+from pdr_core.params_dead_reckoning import DeadReckoningParams as DeadReckoningParams
 from pdr_core.params_detectors import DetectorParams as DetectorParams
+from pdr_core.params_external import ExternalParams as ExternalParams
 from pdr_core.params_foot import FilterParams as FilterParams
 from pdr_core.params_foot import StanceParams as StanceParams
+from pdr_core.params_fusion import FusionParams as FusionParams
+from pdr_core.params_gait import GaitParams as GaitParams
+from pdr_core.params_heading import HeadingParams as HeadingParams
+from pdr_core.params_power import PowerParams as PowerParams
+from pdr_core.params_simulation import SimulationParams as SimulationParams
 
 CALIBRATE = "`pdr calibrate mag`"
 HARD_IRON = "hard iron: what the magnetometer shows without a field"
@@ -119,6 +127,9 @@ class PlaceParams:
         bounds=(-90.0, 90.0),
         source=CALIBRATE,
     )
+    field_declination_deg: float = parameter(
+        0.0, "by how much the field points east of north; 0: north is magnetic", unit="deg", bounds=(-180.0, 180.0)
+    )
 
 
 @dataclass(frozen=True)
@@ -135,86 +146,12 @@ class DriverParams:
     acknowledge_topic: str = parameter(
         "odom", "as fast as possible: samples count as taken once their estimate appears on this topic"
     )
+    lead_samples: int = parameter(
+        0, "at a pace: so many samples at most are ahead of acknowledge_topic; 0: any number", bounds=(0, 1000)
+    )
     subscribers: int = parameter(1, "the first sample waits for so many subscribers", bounds=(1, 100))
+    begins_after: str = parameter("", "the first sample waits for a publisher of each of these topics")
     settling_s: float = parameter(0.05, "what the gyro needs after being switched on", unit="s", bounds=(0.0, 10.0))
-
-
-@dataclass(frozen=True)
-class SimulationParams:
-    """The simulated walk and the sensor that feels it."""
-
-    motion: str = parameter(
-        "gui", "how the foot moves: as Gui prints it, or smoothly", choices=("gui", "smooth"), source="Gui section 5.1"
-    )
-    walk: str = parameter(
-        "rectangle",
-        "the walk; gui knows the first three",
-        choices=(
-            "rectangle",
-            "straight",
-            "still",
-            "curve",
-            "stairs",
-            "run",
-            "mixed",
-            "qiu_rectangle",
-            "track",
-            "stair_climb",
-        ),
-        source="the last three: Qiu section 3",
-    )
-    walk_length_m: float = parameter(36.0, "length of the walk, without its stairs", unit="m", bounds=(0.0, 1e5))
-    pace: float = parameter(
-        1.0, "speed of the smooth foot beside its usual one; 2: a run is a sprint", bounds=(0.5, 3.0)
-    )
-    sensor_model: str = parameter(
-        "consumer",
-        "the sensor",
-        choices=("ideal", "consumer", "gui_table_1", "gui_table_1_deg", "qiu_table_1"),
-        source="Gui Table 1, Qiu Table 1",
-    )
-    sample_rate_hz: float = parameter(200.0, "rate of the sensor", unit="Hz", bounds=(20.0, 4000.0))
-    output: str = parameter(
-        "points", "a sample is the value at its stamp, or the mean since the one before", choices=("points", "means")
-    )
-    earth_rate: bool = parameter(False, "the gyro feels the Earth turn", source="Gui eq. 31")
-    mounting_roll_rad: float = parameter(
-        0.0, "roll of the sensor on the foot, fixed axes", unit="rad", bounds=(-3.15, 3.15)
-    )
-    mounting_pitch_rad: float = parameter(0.0, "pitch of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
-    mounting_yaw_rad: float = parameter(0.0, "yaw of the sensor on the foot", unit="rad", bounds=(-3.15, 3.15))
-    gyro_range_radps: float = parameter(
-        0.0, "angular rate at which the gyro clips; 0: as its model does", unit="rad/s", bounds=(0.0, 200.0)
-    )
-    accel_range_mps2: float = parameter(
-        0.0, "specific force at which the accelerometer clips; 0: as its model does", unit="m/s^2", bounds=(0.0, 5e3)
-    )
-    shock_mps2: float = parameter(0.0, "strongest shock at heel strike", unit="m/s^2", bounds=(0.0, 500.0))
-    magnetometer: bool = parameter(False, "the sensor measures the magnetic field too")
-    magnetometer_rate_hz: float = parameter(
-        0.0, "rate of the magnetometer; samples between have no field; 0: as the rest", unit="Hz", bounds=(0.0, 4000.0)
-    )
-    field_norm_tesla: float = parameter(50e-6, "strength of the Earth's field", unit="T", bounds=(0.0, 1e-3))
-    field_dip_deg: float = parameter(
-        60.0, "angle of the Earth's field below the horizon", unit="deg", bounds=(-90.0, 90.0)
-    )
-    field_declination_deg: float = parameter(
-        0.0, "angle of magnetic north east of the world's y", unit="deg", bounds=(-180.0, 180.0)
-    )
-    indoor_field: float = parameter(
-        0.0,
-        "strength of the iron below the floor beside the Earth's field; 0.25: norm +-20 %, azimuth +-20 deg",
-        bounds=(0.0, 2.0),
-    )
-    disturbance_tesla: float = parameter(
-        0.0, "strength of a level field that is switched on for some time", unit="T", bounds=(0.0, 1e-2)
-    )
-    disturbance_azimuth_deg: float = parameter(
-        0.0, "its direction, counter-clockwise from the world's x", unit="deg", bounds=(-180.0, 180.0)
-    )
-    disturbance_start_s: float = parameter(0.0, "when it is switched on", unit="s", bounds=(0.0, 1e6))
-    disturbance_s: float = parameter(10.0, "how long it stays on", unit="s", bounds=(0.0, 1e6))
-    seed: int = parameter(1, "seed of noise, biases, shocks and iron", bounds=(0, 2**31))
 
 
 @dataclass(frozen=True)
@@ -223,9 +160,20 @@ class NodeParams:
 
     world_frame: str = parameter("odom", "frame of the estimate", source="REP-105")
     foot_frame: str = parameter("foot", "frame of the foot")
+    chest_frame: str = parameter("chest", "chest_pdr: frame of the card on the chest")
     sensor_frame: str = parameter("imu_link", "frame of the sensor", source="REP-145")
+    frame_prefix: str = parameter(
+        "", "goes before every frame, as alice/ does for one of several people", source="robot_state_publisher"
+    )
     autostart: bool = parameter(True, "become active without being told; false: wait for the lifecycle services")
     publish_tf: bool = parameter(False, "broadcast world_frame -> foot_frame; one node at a time may")
+    feet: str = parameter("left right", "heading_fusion: the namespaces of the feet of one person, one or two")
+    base_frame: str = parameter("base_footprint", "heading_fusion: frame of the person", source="REP-120")
+    publish_base_tf: bool = parameter(True, "heading_fusion: broadcast world_frame -> base_frame")
+    path_rate_hz: float = parameter(
+        1.0, "heading_fusion: a place of the path comes at most so often, by stamps", unit="Hz", bounds=(0.01, 100.0)
+    )
+    path_places: int = parameter(1000, "heading_fusion: so many of the last places make the path", bounds=(1, 100_000))
     input_reliable: bool = parameter(
         False, "ask the driver for reliable delivery; false connects to any driver", source="REP-2003"
     )
@@ -255,6 +203,13 @@ class Params:
     filter: FilterParams = field(default_factory=FilterParams)
     attitude: AttitudeParams = field(default_factory=AttitudeParams)
     dedrift: DedriftParams = field(default_factory=DedriftParams)
+    fusion: FusionParams = field(default_factory=FusionParams)
+    external: ExternalParams = field(default_factory=ExternalParams)
+    power: PowerParams = field(default_factory=PowerParams)
+    gait: GaitParams = field(default_factory=GaitParams)
+    chest: ChestParams = field(default_factory=ChestParams)
+    heading: HeadingParams = field(default_factory=HeadingParams)
+    dead_reckoning: DeadReckoningParams = field(default_factory=DeadReckoningParams)
     driver: DriverParams = field(default_factory=DriverParams)
     simulation: SimulationParams = field(default_factory=SimulationParams)
     node: NodeParams = field(default_factory=NodeParams)

@@ -115,12 +115,28 @@ class FilterParams:
         "a sample is the value at its stamp, or what the sensor integrated (means) or averaged since the one before",
         choices=("points", "means", "averages"),
     )
+    heading_states: bool = parameter(
+        True,
+        "estimate yaw error and gyro bias; false: the filter of 11 states, which takes heading observations whole",
+        source="paper 004 eq. 1-3",
+    )
     alignment_s: float = parameter(
         0.1, "the foot is levelled by the mean of this first time", unit="s", bounds=(0.0, 60.0), source="Gui eq. 1-2"
     )
-    initial_yaw_rad: float = parameter(0.0, "yaw at the start", unit="rad", bounds=(-3.15, 3.15))
+    initial_yaw_source: str = parameter(
+        "given",
+        "yaw at the start: initial_yaw_rad, or by the calibrated magnetometer, counter-clockwise from east",
+        choices=("given", "magnetometer"),
+        source="Gui section 5.2",
+    )
+    initial_yaw_rad: float = parameter(
+        0.0, "yaw at the start, where the field does not give it", unit="rad", bounds=(-3.15, 3.15)
+    )
     gravity_source: str = parameter(
-        "rest", "gravity from the specific force of the first rest or from the place", choices=("rest", "place")
+        "rest",
+        "gravity of the place, or all that the accelerometer shows in the first rest, its bias along the vertical too",
+        choices=("rest", "place"),
+        source="a data sheet's 0.1 m/s^2 of bias, taken for gravity, makes each stride 0.4 % too long",
     )
     zero_velocity_sd_mps: float = parameter(
         0.02,

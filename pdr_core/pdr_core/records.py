@@ -54,6 +54,12 @@ class StanceBlock(NamedTuple):
     rest_sd_radps: Floats  # (n,)
 
 
+NO_NUMBERS = np.zeros(0)
+NO_VERDICTS = StanceBlock(
+    NO_SAMPLES, np.zeros(0, np.bool_), NO_NUMBERS, NO_NUMBERS, NO_NUMBERS, np.zeros((0, 3)), NO_NUMBERS
+)
+
+
 class NavBlock(NamedTuple):
     """n estimates of one foot, as nav_msgs/Odometry wants them: pose in the world frame, twist in the foot frame."""
 
@@ -119,6 +125,7 @@ class StepEvent:
     yaw_sd_rad: float
     answer_due_ns: int = NO_STAMP  # the filter waits here for the heading observation; NO_STAMP: it asks for none
     sample_numbers: tuple[int, int] = NOT_NUMBERED  # of its first and its last sample, as the filter counts them
+    position_covariance_m2: Floats | None = None  # (3, 3); None: unknown
 
     @property
     def length_m(self) -> float:
@@ -150,15 +157,34 @@ class HeadingSource(Enum):
 
 
 @dataclass(frozen=True)
+class PositionError:
+    """By how much a place is off."""
+
+    error_m: Floats  # (3,) estimated minus true, world frame
+    covariance_m2: Floats  # (3, 3)
+
+
+@dataclass(frozen=True)
 class HeadingObservation:
-    """The answer to one step event. Each gets exactly one, an empty one (source NONE) where there is nothing to say."""
+    """The answer to one step event: each gets exactly one, an empty one where there is nothing to say."""
 
     step_index: int
     step_ns: int  # stamp of the step event
     applies_from_ns: int  # the first sample at or after it takes the observation; not before the step's answer_due_ns
-    source: HeadingSource
+    source: HeadingSource  # NONE: nothing is said of the heading
     yaw_error_rad: float  # estimated minus true: by how much the track is turned too far, counter-clockwise
     yaw_error_sd_rad: float
+    position: PositionError | None = None  # of the foot where it stands; None: nothing is said of it
+
+    @property
+    def empty(self) -> bool:
+        """Nothing is said."""
+        return self.source is HeadingSource.NONE and self.position is None
+
+
+def empty_answer(step: StepEvent) -> HeadingObservation:
+    """Return the answer to a step that says nothing."""
+    return HeadingObservation(step.index, step.stamp_ns, step.answer_due_ns, HeadingSource.NONE, 0.0, 0.0)
 
 
 class FilterMode(Enum):
@@ -253,6 +279,11 @@ def part(block: Block, start: int, stop: int | None = None) -> Block:
     """Return the samples start:stop of a block."""
     columns = (part(c, start, stop) if isinstance(c, tuple) else c[start:stop] for c in block)
     return type(block)(*columns)
+
+
+def picked(block: Block, rows: NDArray[np.integer]) -> Block:
+    """Return the samples at rows, (n,), of a block."""
+    return type(block)(*(picked(c, rows) if isinstance(c, tuple) else c[rows] for c in block))
 
 
 def joined(blocks: list[Block]) -> Block:

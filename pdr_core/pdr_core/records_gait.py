@@ -1,6 +1,8 @@
-"""What the analysis of gait gives out: how the sensor sits on the foot, and strides in figures."""
+"""What the analysis of gait gives out: how the sensor sits on the foot, strides in figures, and what a person does."""
 
 from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple
 
 from pdr_core.records import Floats, StepEvent
 
@@ -44,3 +46,47 @@ class Stride:
     def cadence_per_min(self) -> float | None:
         """Steps of both feet a minute: two a stride."""
         return 120.0 / self.duration_s if self.duration_s else None
+
+
+class Behaviour(Enum):
+    """What the foot does; the values are those of pdr_msgs/StepEvent."""
+
+    UNKNOWN = 0
+    STANDING = 1
+    SWING = 2  # it moves without walking
+    WALKING = 3
+    RUNNING = 4
+
+
+@dataclass(frozen=True)
+class GaitStep:
+    """One stride of one foot as its accelerometer alone shows it: from a ground hit to the next.
+
+    Two steps of a person. The accelerations are those of |a| - g over that time, with the low-passed specific force a
+    and g that of the standing foot. A stride from standing begins where one would that stands as usual before it moves.
+    """
+
+    index: int  # 1, 2, 3 ...
+    start_ns: int
+    stamp_ns: int  # of the ground hit that ends it
+    behaviour: Behaviour
+    frequency_hz: float  # strides a second of this foot
+    accel_mean_mps2: float
+    accel_max_mps2: float
+    accel_min_mps2: float
+    accel_mean_abs_mps2: float  # mean of the absolute value
+
+
+class Angle(NamedTuple):
+    """An angle and how well it is known."""
+
+    rad: float
+    sd_rad: float
+
+
+class FieldHeading(NamedTuple):
+    """The yaw of a standing foot by its magnetic field."""
+
+    rad: float
+    sd_rad: float  # by which places differ
+    common_sd_rad: float  # by which they are off together

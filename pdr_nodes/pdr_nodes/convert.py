@@ -16,6 +16,7 @@ from pdr_core import records
 from pdr_core.conventions import NANOSECONDS, NO_STAMP
 from pdr_core.records import AttitudeBlock, Floats, ImuBlock, NavBlock, Stamps, StanceBlock, inertial_block
 from pdr_msgs.msg import MargSample, StanceImu, StepEvent
+from pdr_nodes.covariance import LARGEST_POSE, LARGEST_TWIST, bounded
 
 NOT_MEASURED = -1.0  # first element of a covariance (REP-145)
 
@@ -188,10 +189,10 @@ def odometry_message(nav: NavBlock, i: int, world_frame: str, foot_frame: str) -
     position = message.pose.pose.position
     position.x, position.y, position.z = nav.position_m[i].tolist()
     message.pose.pose.orientation = quaternion_message(nav.quat_xyzw[i])
-    message.pose.covariance = nav.pose_covariance[i].ravel()
+    message.pose.covariance = bounded(nav.pose_covariance[i], LARGEST_POSE).ravel()
     message.twist.twist.linear = vector(nav.velocity_mps[i])
     message.twist.twist.angular = vector(nav.rate_radps[i])
-    message.twist.covariance = nav.twist_covariance[i].ravel()
+    message.twist.covariance = bounded(nav.twist_covariance[i], LARGEST_TWIST).ravel()
     return message
 
 
@@ -226,6 +227,8 @@ def step_message(step: records.StepEvent, world_frame: str, foot_frame: str) -> 
         message.answer_due = time_message(step.answer_due_ns)
     message.start = time_message(step.start_ns)
     message.position.x, message.position.y, message.position.z = step.position_m.tolist()
+    if step.position_covariance_m2 is not None:
+        message.position_covariance = step.position_covariance_m2.ravel()
     message.displacement = vector(step.displacement_m)
     message.displacement_covariance = step.displacement_covariance_m2.ravel()
     message.length = step.length_m
@@ -248,7 +251,14 @@ def step_event(message: StepEvent) -> records.StepEvent:
         yaw_rad=message.yaw,
         yaw_sd_rad=message.yaw_stddev,
         answer_due_ns=stamp_ns(message.answer_due) or NO_STAMP,
+        position_covariance_m2=known_covariance(message.position_covariance),
     )
+
+
+def known_covariance(row_major: Floats) -> Floats | None:
+    """Return nine numbers as a covariance (3, 3); zeros say that it is unknown."""
+    covariance = np.array(row_major).reshape(3, 3)
+    return covariance if covariance.any() else None
 
 
 def transform_message(odometry: Odometry) -> TransformStamped:

@@ -3,9 +3,17 @@
 import numpy as np
 
 from pdr_core import records
-from pdr_core.records import Biases, HeadingSource
+from pdr_core.records import Biases, HeadingSource, PositionError
 from pdr_msgs.msg import Handover, HeadingObservation
-from pdr_nodes.convert import numbers, pose_estimate, quaternion_message, stamp_ns, time_message, vector
+from pdr_nodes.convert import (
+    known_covariance,
+    numbers,
+    pose_estimate,
+    quaternion_message,
+    stamp_ns,
+    time_message,
+    vector,
+)
 
 SOURCES = {source.value: source for source in HeadingSource}
 
@@ -18,11 +26,16 @@ def heading_message(observation: records.HeadingObservation, foot_frame: str) ->
     message.source = observation.source.value
     message.yaw_error = observation.yaw_error_rad
     message.yaw_error_stddev = observation.yaw_error_sd_rad
+    if observation.position:
+        message.position_error = vector(observation.position.error_m)
+        message.position_error_covariance = observation.position.covariance_m2.ravel()
     return message
 
 
 def heading_observation(message: HeadingObservation) -> records.HeadingObservation:
     """Return a message as the answer to a step; a source that we do not know is somebody else."""
+    covariance_m2 = known_covariance(message.position_error_covariance)
+    off = None if covariance_m2 is None else PositionError(np.array(numbers(message.position_error)), covariance_m2)
     return records.HeadingObservation(
         step_index=message.step_index,
         step_ns=stamp_ns(message.header.stamp),
@@ -30,6 +43,7 @@ def heading_observation(message: HeadingObservation) -> records.HeadingObservati
         source=SOURCES.get(message.source, HeadingSource.EXTERNAL),
         yaw_error_rad=message.yaw_error,
         yaw_error_sd_rad=message.yaw_error_stddev,
+        position=off,
     )
 
 

@@ -42,7 +42,7 @@ class Input:
         kind: type,
         topic: str,
         qos: QoSProfile,
-        block: Callable[[Any], tuple],
+        block: Callable[[Any], tuple | None],
         take: Callable[[tuple], None],
         restarts_anew: bool,
         words: Words = SAMPLES,
@@ -93,7 +93,7 @@ class Input:
     def _heard(self, message: Any) -> None:
         self._heard_s = time.monotonic()
         block = self._block(message)
-        if not self._repeats.has(stamp_ns(block)):
+        if block and not self._repeats.has(stamp_ns(block)):
             self._blocks.append(block)
 
     def _incompatible(self, info: Any) -> None:

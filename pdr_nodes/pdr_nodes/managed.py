@@ -9,6 +9,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any, ClassVar, Protocol
 
+from rclpy.client import Client
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
@@ -16,8 +17,9 @@ from rclpy.qos import QoSProfile
 from pdr_core.params import Params
 from pdr_core.records import Notice
 from pdr_nodes.declare import read_params
+from pdr_nodes.frames import prefixed
 from pdr_nodes.idle import IdleWatch
-from pdr_nodes.input import Input, Words
+from pdr_nodes.input import SAMPLES, Input, Words
 from pdr_nodes.notice_board import NoticeBoard
 from pdr_nodes.qos import OWN
 from pdr_nodes.sole_output import SoleOutput
@@ -72,6 +74,17 @@ class ManagedNode(LifecycleNode):
         """Do work of its own; return the time [s] until it wants to be called again, None when all is done."""
         return LOOK_S
 
+    def take_leave(self) -> None:
+        """Do what must be done before the process ends."""
+
+    def destroy_node(self) -> None:
+        """Leave the graph at once. The state machine, which rclpy 7.1 forgets, would stay until garbage is collected.
+
+        Participants of one process may lock each other for good (Fast DDS 2.14).
+        """
+        super().destroy_node()
+        del self._state_machine
+
     @property
     def waiting(self) -> int:
         """How many messages have come that the stage has not seen."""
@@ -97,8 +110,9 @@ class ManagedNode(LifecycleNode):
         take: Callable,
         qos: QoSProfile = OWN,
         restarts_anew: bool = False,
+        words: Words = SAMPLES,
     ) -> None:
-        """Give the messages of a topic to `take`, as one block those that wait.
+        """Give the messages of a topic to `take`, as one block those that wait; a `block` of None is left out.
 
         A publisher of ours that is started again says once more what was said, which is left out; a driver
         `restarts_anew`.
@@ -109,7 +123,7 @@ class ManagedNode(LifecycleNode):
                 self._idle.fed()
             take(block)
 
-        self._add_input(Input(self, kind, topic, qos, block, fed, restarts_anew))
+        self._add_input(Input(self, kind, topic, qos, block, fed, restarts_anew, words))
 
     def side_input(
         self, kind: type, topic: str, block: Callable, take: Callable, qos: QoSProfile, words: Words
@@ -140,6 +154,12 @@ class ManagedNode(LifecycleNode):
         """Answer a service."""
         self._made.callback(self.destroy_service, self.create_service(kind, name, answer))
 
+    def client(self, kind: type, name: str) -> Client:
+        """Return what calls a service."""
+        client = self.create_client(kind, name)
+        self._made.callback(self.destroy_client, client)
+        return client
+
     def every(self, period_s: float, call: Callable[[], None]) -> None:
         """Call again and again."""
         self.part(Timer(self, period_s, call))
@@ -165,7 +185,7 @@ class ManagedNode(LifecycleNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Read the parameters, make stage and publishers."""
-        answer = self._tried(lambda: self.set_up(read_params(self, self.GROUPS)))
+        answer = self._tried(lambda: self.set_up(prefixed(read_params(self, self.GROUPS))))
         if answer != DONE:
             self._drop_all()
             return answer

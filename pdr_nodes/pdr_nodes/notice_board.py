@@ -10,6 +10,7 @@ from pdr_nodes.qos import STATUS
 
 PERIOD_S = 1.0
 NO_INPUT, NO_FIELD = "no_input", "no_field"  # the kinds of notice that also the end of a recording brings
+NO_DRIVER = "no_driver"  # so does this
 LIFECYCLE, STREAMS = "lifecycle", "streams"
 ORIENTATION = "orientation"  # what is said of it is not said of the track
 Source = Callable[[], list[Notice]]

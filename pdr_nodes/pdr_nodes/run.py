@@ -30,6 +30,7 @@ def run(make_node: Callable[[], ManagedNode]) -> None:
         node = make_node()
         node.start()
         spin(node, lambda: not signals)
+        node.take_leave()
     except (ParameterError, RecordingError) as error:
         print(f"pdr: {error}", file=sys.stderr)
         code = 2

@@ -18,13 +18,13 @@ DOCUMENT = Path(__file__).resolve().parents[2] / "pdr_core" / "docs" / "navigati
 
 WORTH = {  # by how much at least a figure grows without a part; the noise of the sensor helps with noisier ones
     "relative threshold: fixed at 30": Row(10.0, 2.0, 10.0, 10.0, 1.0, 10.0),
-    "relative threshold: fixed at 2000": Row(3.0, 1.0, 10.0, 5.0, 1.0, 1.0),
+    "relative threshold: fixed at 2000": Row(3.0, 0.0, 10.0, 5.0, 1.0, 1.0),
     "confidence": Row(2.0, 2.0, 3.0, 2.0, 1.0, 1.0),
     "rolling contact": Row(1.05, 1.1, 1.0, 1.3, 0.0, 0.0),
     "Huber's weight": Row(1.2, 1.2, 1.5, 3.0, 0.0, 0.0),
     "contradiction": Row(0.0, 0.0, 0.0, 3.0, 1.0, 0.0),
-    "noise of change": Row(1.3, 1.0, 3.0, 0.0, 0.0, 0.0),
-    "clip repair": Row(1.05, 1.05, 1.1, 0.0, 0.0, 0.0),
+    "noise of change": Row(1.3, 0.0, 3.0, 0.0, 0.0, 0.0),
+    "clip repair": Row(1.05, 1.0, 1.1, 0.0, 0.0, 0.0),
     "gyro bias: taken as 0": Row(0.0, 0.0, 0.0, 2.0, 0.0, 0.0),
     "all of these, fixed at 2000": Row(3.0, 2.0, 10.0, 5.0, 1.0, 0.0),
 }

@@ -8,8 +8,8 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 from pdr_core.params import Params, changed
+from pdr_core.rate_limit import RateLimit
 from pdr_core.simulation import simulated_walk
-from pdr_nodes.rate_limit import RateLimit
 from support.processes import pdr
 
 LENGTH_M = 40.8  # a rectangle of 34 strides: a minute

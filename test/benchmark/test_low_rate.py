@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pdr_core.maths.thinning import kept_of, thinned
 from pdr_core.params import Params, changed
 from pdr_core.recording import Session
-from pdr_core.recording.decimation import kept_of, rate_of_hz, thinned
+from pdr_core.recording.decimation import rate_of_hz
 from pdr_core.records import ImuBlock, length, part
 from support.development_table import Row, line, measured
 from support.held_recordings import TILES, VICON, XIO, Held, held, only, with_samples

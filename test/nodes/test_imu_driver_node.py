@@ -4,16 +4,21 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, MagneticField
 
-from pdr_core.params import SimulationParams
+from pdr_core.params import Params, SimulationParams, changed
+from pdr_core.power import GyroSwitch
+from pdr_core.power.motion_rule import motion_rule
 from pdr_core.records import joined, length
-from pdr_core.simulation import simulated_walk
+from pdr_core.simulation import simulated_feet, simulated_walk
+from pdr_msgs.msg import WalkStatus
 from pdr_msgs.srv import SetGyroPower, SetSampleRate
 from pdr_nodes import imu_driver_node
-from pdr_nodes.convert import field_block
+from pdr_nodes.convert import field_block, imu_block, stamp_ns
 from pdr_nodes.devices.source import Source
 from pdr_nodes.imu_driver_node import LOOK_S, ImuDriverNode
+from pdr_nodes.qos import ANSWERS
 from pdr_nodes.throttle import ON_THEIR_WAY
 from support.bench import Bench
+from support.switched import command, strides
 from support.walks import magnetic_walk, stamps, straight_walk, write_csv
 
 SIMULATED = {"simulation__walk": "still", "simulation__sample_rate_hz": 200.0, "driver__rate_factor": 1000.0}
@@ -94,6 +99,23 @@ def test_as_fast_as_possible_it_waits_for_one_who_acknowledges():
         driver.work_until(10)
 
 
+def test_at_a_pace_it_is_never_far_ahead_of_the_end_of_the_chain():
+    lead, given = 20, SIMULATED | {"driver__acknowledge_topic": "walk"}
+    with Bench(ImuDriverNode, **given, driver__lead_samples=lead) as bench:
+        driver, walks = Driver(bench), bench.me.create_publisher(WalkStatus, "walk", ANSWERS)
+        driver.work_until(lead)
+        for _ in range(5):
+            assert driver.node.work() == LOOK_S
+            bench.spin()
+        assert driver.node._player.taken == lead
+        status = WalkStatus()
+        status.header.stamp = driver.samples[lead - 6].header.stamp
+        walks.publish(status)
+        driver.work_until(2 * lead - 5)
+        assert driver.node.work() == LOOK_S
+        assert driver.node._player.taken == 2 * lead - 5
+
+
 def test_as_fast_as_possible_an_estimate_acknowledges_all_samples_before_it():
     with Bench(ImuDriverNode, **SIMULATED | {"driver__rate_factor": 0.0}) as bench:
         driver, publisher = Driver(bench), bench.publisher(Odometry, "odom")
@@ -159,6 +181,26 @@ def test_the_gyro_is_off_from_the_stated_stamp_on_and_settles_when_switched_on(d
     np.testing.assert_array_equal(measured(driver.samples), (at_ns < off_ns) | (at_ns >= on_ns + SETTLING_NS))
     assert all(m.angular_velocity.y == 0.0 for m in driver.samples if m.angular_velocity_covariance[0] == -1.0)
     assert len(driver.samples) == SAMPLES
+
+
+@pytest.mark.parametrize("part", ["mpu9250", "bmi270"])
+def test_a_sensor_that_switches_by_itself_does_so_as_offline(monkeypatch, part):
+    imu, asked = strides(), {"power__wake_mps2": 3.0, "power__part": part}
+    monkeypatch.setattr(imu_driver_node, "open_device", lambda _params, _start_ns: Source("strides", iter([imu]), None))
+    with Bench(ImuDriverNode, driver__rate_factor=1000.0, **asked) as bench:
+        driver = Driver(bench)
+        driver.work_until(100)
+        answer = bench.call(SetGyroPower, "set_gyro_power", on_motion=True)
+        driver.work_to_the_end()
+    rule = motion_rule(changed(Params(), "power", wake_mps2=3.0, part=part).power)
+    assert (answer.success, answer.settling_time) == (True, rule.settle_ns * 1e-9)
+    switch = GyroSwitch(rule)
+    switch.ask(command(1, True, not_before_ns=stamp_ns(answer.effective), on_motion=True))
+    offline = joined([*switch.run(imu), *switch.finish()])
+    live = joined([imu_block(message) for message in driver.samples])
+    np.testing.assert_array_equal(live.gyro_sd_radps < 0.0, offline.gyro_sd_radps < 0.0)
+    np.testing.assert_array_equal(live.gyro_radps, offline.gyro_radps)
+    assert 0.1 < measured(driver.samples)[300:].mean() < 0.9
 
 
 def test_switching_on_what_is_on_needs_no_settling(driver):
@@ -230,3 +272,29 @@ def test_calls_at_the_wrong_time_are_refused(driver):
 
 def test_the_length_of_the_simulation_is_known():
     assert length(simulated_walk(SimulationParams(walk="still")).imu) == SAMPLES
+
+
+def test_it_begins_after_the_nodes_that_it_is_told_to_wait_for():
+    """With two feet no stream starts before the nodes of the other one are there."""
+    with Bench(ImuDriverNode, **SIMULATED, driver__begins_after="other/odom path") as bench:
+        driver = Driver(bench)
+        bench.me.create_publisher(Odometry, "other/odom", 10)
+        bench.until(lambda: bench.node._missing() == ["path"], "one of both")
+        for _ in range(3):
+            assert bench.node.work() == LOOK_S
+        assert "publishers of path (driver.begins_after)" in bench.node._notices()[0].text
+        bench.me.create_publisher(Odometry, "path", 10)
+        driver.work_until(10)
+
+
+@pytest.mark.parametrize("foot", ["left", "right"])
+def test_it_plays_one_of_both_feet_from_a_stamp_on(foot):
+    asked = {"simulation__foot": foot, "simulation__start_ns": 5_000_000_000, "simulation__walk_length_m": 1.2}
+    with Bench(ImuDriverNode, driver__rate_factor=1000.0, simulation__walk="straight", **asked) as bench:
+        driver, truth = Driver(bench), bench.hear(PoseStamped, "ground_truth")
+        driver.work_to_the_end()
+        bench.until(lambda: len(truth) == len(driver.samples), "the truth beside every sample")
+    walk = simulated_feet(SimulationParams(walk="straight", walk_length_m=1.2), start_ns=5_000_000_000)[foot]
+    assert stamps(driver.samples) == walk.imu.stamp_ns.tolist()
+    np.testing.assert_array_equal([m.pose.position.y for m in truth], walk.truth.position_m[:, 1])
+    assert np.sign(truth[0].pose.position.y) == (1.0 if foot == "left" else -1.0)

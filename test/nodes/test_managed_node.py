@@ -1,5 +1,8 @@
 """What all nodes have in common: their states, what they say of themselves, what they keep and what they drop."""
 
+import gc
+from pathlib import Path
+
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -12,8 +15,10 @@ from sensor_msgs.msg import Imu
 from pdr_core.records import joined
 from pdr_msgs.msg import StanceImu
 from pdr_nodes.convert import nav_block
+from pdr_nodes.gait_dr_node import GaitDrNode
 from pdr_nodes.imu_driver_node import ImuDriverNode
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
+from pdr_nodes.mode_manager_node import ModeManagerNode
 from pdr_nodes.qos import STATUS
 from pdr_nodes.stance_detector_node import StanceDetectorNode
 from pdr_nodes.zupt_ekf_node import ZuptEkfNode
@@ -21,7 +26,9 @@ from support.bench import Bench
 from support.walks import BEGIN_NS, imu_messages, judged, stamps, stance_messages, still, straight_walk
 
 NODES = pytest.mark.parametrize(
-    "node", [ImuDriverNode, ImuIngestionNode, StanceDetectorNode, ZuptEkfNode], ids=lambda n: n.NAME
+    "node",
+    [ImuDriverNode, ImuIngestionNode, StanceDetectorNode, ZuptEkfNode, GaitDrNode, ModeManagerNode],
+    ids=lambda n: n.NAME,
 )
 CONFIGURE, CLEANUP = Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_CLEANUP
 ACTIVATE, DEACTIVATE = Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_DEACTIVATE
@@ -35,6 +42,11 @@ def told_to(bench, transition):
 
 def state(bench):
     return bench.call(GetState, f"{bench.node.NAME}/get_state").current_state.label
+
+
+def participants():
+    """Count the participants of this process: each has one thread for its events."""
+    return sum(name.read_text().startswith("dds.ev.") for name in Path("/proc/self/task").glob("*/comm"))
 
 
 @NODES
@@ -52,6 +64,18 @@ def test_a_node_walks_through_its_states_when_told(node):
 def test_a_node_is_active_by_itself(node):
     with Bench(node) as bench:
         assert state(bench) == "active"
+
+
+@NODES
+def test_a_destroyed_node_leaves_the_graph_at_once(node):
+    """Not when garbage is collected: two graphs in one process may lock each other."""
+    gc.disable()
+    try:
+        with Bench(node):
+            assert participants() == 1
+        assert participants() == 0
+    finally:
+        gc.enable()
 
 
 def test_an_impossible_transition_is_refused_and_the_node_lives_on():

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from pdr_core.rate_limit import RateLimit
 from pdr_core.records import Level, Notice
 from pdr_nodes import throttle
 from pdr_nodes.notice_board import notices_from, status
-from pdr_nodes.rate_limit import RateLimit
 from pdr_nodes.repeats import Repeats
 
 MS = 1_000_000

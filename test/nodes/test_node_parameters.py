@@ -4,18 +4,22 @@ import pytest
 
 from pdr_core.parameter import ParameterError, meta
 from pdr_core.params import GROUPS
+from pdr_nodes.gait_dr_node import GaitDrNode
 from pdr_nodes.imu_driver_node import ImuDriverNode
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
+from pdr_nodes.mode_manager_node import ModeManagerNode
 from pdr_nodes.stance_detector_node import StanceDetectorNode
 from pdr_nodes.zupt_ekf_node import ZuptEkfNode
 from support.bench import Bench
 from support.processes import node_process
 
 GROUPS_OF = {
-    ImuDriverNode: ("driver", "simulation", "place", "node"),
+    ImuDriverNode: ("driver", "simulation", "place", "power", "node"),
     ImuIngestionNode: ("intake", "node"),
     StanceDetectorNode: ("stance", "detectors", "place", "node"),
     ZuptEkfNode: ("filter", "place", "node"),
+    GaitDrNode: ("filter", "place", "gait", "dead_reckoning", "power", "node"),
+    ModeManagerNode: ("power", "node"),
 }
 REFUSED = {
     "an unknown name": ({"filter__gates": 1.0}, "filter.gates: unknown parameter; known are samples, .*gate"),
@@ -38,7 +42,9 @@ def test_a_bad_parameter_is_named_with_value_and_bounds(node, case):
         pass
 
 
-@pytest.mark.parametrize("name", ["imu_driver", "imu_ingestion", "stance_detector", "zupt_ekf"])
+@pytest.mark.parametrize(
+    "name", ["imu_driver", "imu_ingestion", "stance_detector", "zupt_ekf", "gait_dr", "mode_manager"]
+)
 def test_a_bad_parameter_ends_the_process_with_one_sentence(name, tmp_path):
     with node_process(name, "parameters", tmp_path / "log", node__idle_s=100) as process:
         assert process.wait(60) == 2

@@ -94,3 +94,15 @@ def test_each_step_hands_the_estimate_over():
     np.testing.assert_array_equal(handed.pose.position_m, nav.position_m[at])
     np.testing.assert_array_equal(handed.pose.covariance, nav.pose_covariance[at])
     assert handed.biases is not None
+
+
+def test_the_last_step_comes_after_what_waits_for_an_answer():
+    """The stream pauses while the filter waits: what it holds is still to come."""
+    with Bench(ZuptEkfNode, filter__heading_feedback=True, node__answer_timeout_s=0.0, node__idle_s=0.2) as bench:
+        walk = Walk(bench)
+        bench.until(lambda: bench.node._filter.waits, "the filter to wait")
+        bench.until(lambda: bench.node._ends, "the end of the stream")
+        walk.answered(behind=True)
+        walk.heard(walk.steps, STRIDES)
+    assert [step.index for step in walk.steps] == [1, 2, 3]
+    assert step_event(walk.steps[-1]).stamp_ns == BLOCK.imu.stamp_ns[-1]

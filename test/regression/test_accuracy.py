@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.offline import run_recording
-from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.run_choice import each_estimated
+from pdr_bringup_scripts.run_options import RunOptions
 from pdr_core.evaluation.metrics import path_length_m
-from pdr_core.evaluation.result import Hindsight, Result, SensorsResult
+from pdr_core.evaluation.result import Result, SensorsResult
 from pdr_core.params import Params
 from pdr_core.recording import open_recording
 from pdr_core.recording.tum import Trajectory, read_tum
@@ -48,7 +48,7 @@ class Run:
 
 def run(path: Path, out: Path, smooth: bool = False) -> list[Run]:
     """Run every sensor of a recording, and read the trajectory back from the file that users get."""
-    result = run_recording(open_recording(path), Params(), None, out, Terminal(), Hindsight(smoothed=smooth))
+    result = each_estimated(open_recording(path), Params(), RunOptions(out, smooth=smooth))
     sensors = result.sensors if isinstance(result, SensorsResult) else {"": result}
     return [
         Run(path.parent.name, f"{path.stem} {s}", r, read_tum(out / s / "trajectory.tum")) for s, r in sensors.items()

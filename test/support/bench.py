@@ -27,22 +27,22 @@ class Bench:
         self.node = None
         given = [part for name, value in self._params.items() for part in ("-p", f"{name}:={yaml_text(value)}")]
         rclpy.init(args=["--ros-args", "-r", f"__ns:=/{self.namespace}", "--log-level", "error", *given])
+        self.executor = EventsExecutor()
+        self.me = Node("bench", start_parameter_services=False, use_global_arguments=True)
+        self.executor.add_node(self.me)
         try:
-            self.executor = EventsExecutor()
-            self.me = Node("bench", start_parameter_services=False, use_global_arguments=True)
-            self.executor.add_node(self.me)
             self.node = self._make_node() if self._make_node else None
             if self.node:
                 self.node.start()
         except Exception:
-            rclpy.shutdown()
+            self.__exit__()
             raise
         if self.node:
             self.executor.add_node(self.node)
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Leave nothing of the graph behind: forgotten participants may lock each other at the end of Python."""
+        """Leave nothing of the graph: participants of one process may lock each other for good (Fast DDS 2.14)."""
         self.executor.shutdown()
         for node in (self.node, self.me):
             if node:

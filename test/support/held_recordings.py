@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pdr_bringup_scripts.offline import run_sensor
-from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.offline import run_foot
+from pdr_bringup_scripts.run_options import RunOptions
 from pdr_core.evaluation.result import Result
 from pdr_core.params import Params
 from pdr_core.recording import Sensor, Session, open_recording
@@ -20,6 +20,7 @@ def held(recordings: Path, folder: str, names: Sequence[str] = ()) -> Held:
     """Read the recordings of a folder, each of one sensor; no names: all of them."""
     paths = sorted((recordings / folder).glob(PATTERNS[folder]))
     wanted = [path for path in paths if not names or path.stem in names]
+    assert len(wanted) >= max(len(names), 1), f"{folder} lacks some of {names}: of them nothing would be asked"
     return {path.stem: with_samples(open_recording(path), lambda samples: samples) for path in wanted}
 
 
@@ -39,7 +40,7 @@ def only(session: Session) -> Sensor:
 def results(walks: Held, params: Params | None = None) -> dict[str, Result]:
     """Run every recording as `pdr run` does; no parameters: the defaults."""
     run = {name: (session, only(session)) for name, session in walks.items()}
-    return {name: run_sensor(*pair, params or Params(), None, Terminal()) for name, pair in run.items()}
+    return {name: run_foot(*pair, params or Params(), RunOptions()) for name, pair in run.items()}
 
 
 def ate2_m(walks: Held, params: Params | None = None) -> dict[str, float]:

@@ -61,12 +61,13 @@ class LiveRun:
     def __init__(self, params: Params, samples: int, seconds: float, logs: Path) -> None:
         self.cost: dict[str, tuple[float, float]] = {}  # of each node: share of a core, memory [MB]
         rclpy.init()
+        self.ear = Ear()
         try:
-            self.ear = Ear()
             self._samples = samples
             with Chain(logs, params_as_mapping(params), NAMESPACE) as chain:
                 self._listen(chain, seconds)
         finally:
+            self.ear.destroy_node()
             rclpy.try_shutdown()
 
     def _listen(self, chain: Chain, seconds: float) -> None:

@@ -8,9 +8,9 @@ from typer import Typer
 from typer.testing import CliRunner
 
 from pdr_bringup_scripts.commands.calibrate_mounting import mounting
-from pdr_bringup_scripts.offline import run_recording
 from pdr_bringup_scripts.problems import Problem
-from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.run_choice import estimated
+from pdr_bringup_scripts.run_options import RunOptions
 from pdr_core.params import SimulationParams
 from pdr_core.params_file import load_params
 from pdr_core.recording import open_recording
@@ -42,7 +42,7 @@ def test_after_it_the_foot_looks_where_it_walks(walk, tmp_path):
     assert "14 straight strides" in answer.stdout
     assert f"--params {tmp_path / 'mounting.yaml'}" in answer.stdout
     params = load_params(tmp_path / "mounting.yaml")
-    result = run_recording(open_recording(walk), params, None, tmp_path / "out", Terminal())
+    result = estimated(open_recording(walk), params, RunOptions(tmp_path / "out"))
     rows = np.genfromtxt(tmp_path / "out" / "strides.csv", delimiter=",", names=True)
     assert np.abs(rows["heading_rad"][1:]).max() < 0.05  # without the file it is any angle
     assert np.abs(rows["y_m"]).max() < 0.2

@@ -75,7 +75,7 @@ def test_a_broken_file_does_not_lose_the_others(folder):
     names = ("broken.csv", "walk1.csv", "gone.mcap")
     run = pdr("compare", "--detectors", "glrt", "--time-gates", "none,kmeans", "--json", *names, cwd=folder)
     assert run.returncode == 2
-    told = run.stderr.splitlines()
+    told = run.stderr.splitlines()[-2:]  # a slow machine tells before how far it is
     assert [line.startswith("pdr: ") for line in told] == [True, True]
     assert ["broken.csv" in told[0], "gone.mcap" in told[1]] == [True, True]
     found = json.loads(run.stdout)["figures"]
@@ -142,7 +142,7 @@ def test_methods_of_orientation_are_compared_instead(folder, tmp_path):
     rows = [line.split() for line in run.stdout.splitlines()]
     methods = ["error_state", "quaternion_ekf", "gradient_descent", "complementary"]
     assert [row[1] for row in rows if row[:1] == ["walk1"]] == methods
-    told = run.stderr.splitlines()
+    told = run.stderr.splitlines()[-2:]  # a slow machine tells before how far it is
     assert told[0].startswith("walk1, factored_quaternion: factored quaternions need a magnetometer")
     assert told[1] == f"Written to {tmp_path / 'out'}: orientations.html, orientations.json"
     (found,) = json.loads((tmp_path / "out" / "orientations.json").read_text())

@@ -47,6 +47,23 @@ def test_the_same_seed_is_the_same_walk_and_another_is_another(folder, tmp_path)
     assert (tmp_path / "6.csv").read_bytes() != (folder / "walk.csv").read_bytes()
 
 
+def test_both_feet_are_written_and_read(tmp_path):
+    both = ("simulate", "--feet", "--walk", "corridor", "--length", 20, "--rate", 100)
+    done(*both, "--out", tmp_path / "feet")
+    said = done("run", tmp_path / "feet", "--out", tmp_path / "result").stdout
+    assert f"Written to {tmp_path / 'result'}: result.json; in left, right: trajectory.tum, strides.csv" in said
+    assert "in body: trajectory.tum, result.json, report.html\n" in said
+    assert sorted(path.name for path in (tmp_path / "result").iterdir()) == ["body", "left", "result.json", "right"]
+    assert not (tmp_path / "result" / "body" / "strides.csv").exists()
+    for foot in ("left", "right"):
+        found = json.loads((tmp_path / "result" / foot / "result.json").read_text())
+        assert found["truth"]["kind"] == "position"
+        assert 0.0 < found["truth"]["ate2_m"] < 0.2
+    refused = pdr(*both, "--out", tmp_path / "feet.csv")
+    check_refused(refused, "a CSV file holds one sensor; choose from left, right, or write a bag")
+    check_refused(pdr(*both, "--motion", "gui", "--out", tmp_path / "gui"), "both feet move smoothly")
+
+
 def test_a_parameter_that_is_not_allowed_is_refused(tmp_path):
     answer = pdr("simulate", "--rate", 5, "--out", tmp_path / "walk")
     assert (answer.returncode, answer.stdout) == (2, "")

@@ -8,7 +8,7 @@ from support.walks import COLUMNS, straight_walk, write_csv
 WALK = {"recording", "format", "samples", "duration_s", "rate_hz", "pipeline", "smoothed", "two_passes"}
 CLOSURE = {"strides", "distance_m", "end_position_m", "closure_2d_m", "closure_3d_m"}
 KEYS = {*WALK, *CLOSURE, "gait", "seconds", "notices", "config", "truth", "version", "commit"}
-COMMANDS = ("demo", "test", "live", "run", "replay", "simulate", "convert", "evaluate", "params")
+COMMANDS = ("demo", "test", "live", "record", "run", "replay", "simulate", "convert", "evaluate", "params")
 TWO_FEET = """name: two
 time: {column: t, unit: ns}
 sensors:
@@ -46,12 +46,24 @@ def test_json_is_one_object_with_the_keys_that_are_promised(walk, tmp_path):
 
 def test_several_sensors_come_together_or_one_by_name(two_feet, tmp_path):
     both = only_json(pdr("run", two_feet, "--json", "--out", tmp_path / "out"))
-    assert sorted(both) == ["format", "recording", "sensors"]
+    assert sorted(both) == ["body", "format", "recording", "sensors"]
     assert sorted(both["sensors"]) == ["left", "right"]
-    assert (tmp_path / "out" / "left" / "trajectory.tum").exists()
+    assert set(both["body"]) == KEYS
+    for folder in ("left", "right", "body"):
+        assert (tmp_path / "out" / folder / "trajectory.tum").exists()
+        assert (tmp_path / "out" / folder / "report.html").exists()
     one = only_json(pdr("run", two_feet, "--json", "--sensor", "right"))
     assert set(one) == KEYS
     assert one["end_position_m"] == both["sensors"]["right"]["end_position_m"]
+
+
+def test_feet_are_named_or_found_by_their_names(two_feet):
+    named = only_json(pdr("run", two_feet, "--json", "--feet", "right,left"))
+    assert list(named["sensors"]) == ["right", "left"]
+    for wrong in ("left", "left,left", "left,middle"):
+        check_refused(pdr("run", two_feet, "--feet", wrong))
+    check_refused(pdr("run", two_feet, "--feet", "left,right", "--smooth"), "--feet", "--smooth")
+    assert "body" not in only_json(pdr("run", two_feet, "--json", "--smooth"))
 
 
 def test_people_get_sentences(walk, tmp_path):
@@ -89,7 +101,13 @@ def test_an_unknown_sensor_is_refused(two_feet, tmp_path):
     check_refused(pdr("run", two_feet, "--sensor", "middle"), "middle", "left, right")
     out = tmp_path / "out"
     check_refused(pdr("replay", two_feet, "--sensor", "middle", "--out", out), "left, right")
-    check_refused(pdr("replay", two_feet, "--out", tmp_path / "other"), "left, right")
+    check_refused(pdr("replay", two_feet, "--feet", "left,middle", "--out", out), "left, right")
+
+
+def test_two_sensors_are_feet_only_where_they_are_called_so(tmp_path):
+    path = write_csv(tmp_path / "walk.csv", straight_walk(2).imu)
+    path.with_suffix(".yaml").write_text(TWO_FEET.replace("left", "hand").replace("right", "belt"))
+    check_refused(pdr("replay", path, "--out", tmp_path / "out"), "hand, belt", "--sensor")
 
 
 @pytest.mark.parametrize(
@@ -110,6 +128,7 @@ def test_a_bad_parameter_file_is_refused(walk, tmp_path, text, words):
 def test_a_folder_that_cannot_be_written_is_refused(command, walk, tmp_path):
     blocked = bad_file(tmp_path, "file", "not a folder") / "out"
     check_refused(pdr(command, walk, "--out", blocked), "cannot write to", str(blocked))
+    check_refused(pdr(command, walk, "--out", blocked.parent), "it is a file, and a folder is needed")
 
 
 @pytest.mark.parametrize("text", ["", COLUMNS + "\n"])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pdr_core.params import Params
+from pdr_core.rate_limit import RateLimit
 from pdr_core.recording.tum import read_tum
-from pdr_nodes.rate_limit import RateLimit
 from support.processes import pdr
 from support.walks import straight_walk, write_csv
 

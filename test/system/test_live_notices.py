@@ -24,4 +24,4 @@ def test_the_last_word_on_the_track_counts_and_the_end_of_the_samples_is_not_wro
         for at_ns, statuses in enumerate(words):
             cdr = serialize_message(DiagnosticArray(status=statuses))
             bag.write("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", at_ns, cdr)
-    assert [notice.kind for notice in notices(tmp_path / "bag", "left")] == ["not_finite", "incompatible_qos"]
+    assert [notice.kind for notice in notices(tmp_path / "bag", "left/")] == ["not_finite", "incompatible_qos"]

@@ -30,6 +30,7 @@ def test_a_wrong_type_is_told(bench):
         node.create_publisher(MagneticField, "/your/imu", 10)
         text = "it is published as sensor_msgs/msg/MagneticField, not as sensor_msgs/msg/Imu"
         bench.until(lambda: text in bench.relay.why_silent(), "the type")
+        node.destroy_node()
 
 
 def test_a_silent_publisher_is_told(bench):

@@ -13,11 +13,11 @@ from pdr_core.params_file import default_file
 CHECKOUT = Path(__file__).resolve().parents[2]
 README = (CHECKOUT / "README.md").read_text(encoding="utf-8")
 BLOCK = re.compile(r"(<!-- not run\b[^>]*-->\n+)?^```bash\n(.*?)^```", re.MULTILINE | re.DOTALL)
-COMMANDS = [(line, bool(mark)) for mark, block in BLOCK.findall(README) for line in block.splitlines() if line.strip()]
+COMMANDS = [(line, mark) for mark, block in BLOCK.findall(README) for line in block.splitlines() if line.strip()]
 THIS = "pdr_bringup_scripts/pdr test"  # it is running
 TYPED = [line for line, marked in COMMANDS if not marked and line != THIS]
 WITH_PARTS = ("calibrate",)  # commands that have commands of their own
-OF_YOURS = [line for line, marked in COMMANDS if marked and line.startswith("pdr_bringup_scripts/pdr ")]
+OF_YOURS = [line for line, marked in COMMANDS if "is yours" in marked]
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def typed(command: str, folder: Path) -> subprocess.CompletedProcess:
 
 def test_the_main_job_and_the_tests_are_one_command_each() -> None:
     assert "pdr_bringup_scripts/pdr demo" in TYPED
-    assert (THIS, False) in COMMANDS
+    assert (THIS, "") in COMMANDS
 
 
 @pytest.mark.parametrize("command", TYPED)

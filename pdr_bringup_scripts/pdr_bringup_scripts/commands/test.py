@@ -22,5 +22,6 @@ def test(
     if not (checkout / "test").is_dir():
         raise Problem(f"there are no tests beside {checkout}; `pdr test` needs a checkout")
     environment = os.environ | ({"PDR_FULL": "1"} if full else {})
-    command = [sys.executable, "-m", "pytest", *context.args]
+    patience = ["-o", "faulthandler_timeout=0"] if full else []  # a long figure is no test that hangs
+    command = [sys.executable, "-m", "pytest", *patience, *context.args]
     sys.exit(subprocess.run(command, cwd=checkout / "test", env=environment).returncode)

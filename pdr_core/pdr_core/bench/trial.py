@@ -7,7 +7,7 @@ from pdr_core.evaluation.score import Scorer
 from pdr_core.evaluation.walk_score import WalkScore, walk_score
 from pdr_core.evaluation.words import nothing_usable
 from pdr_core.params import Params
-from pdr_core.pipeline import FootInertial, FootOutput, stance_phases
+from pdr_core.pipeline import ConstrainedFoot, FootInertial, FootOutput, stance_phases
 from pdr_core.records import ImuBlock, StanceBlock, StepEvent, Truth, joined, length
 
 
@@ -35,7 +35,7 @@ class NoSamples(Exception):  # noqa: N818  (what a person meets)
 def trial(walk: Walk, params: Params, two_passes: bool = False) -> Trial:
     """Run the whole chain over a recording; `two_passes`: its time gate knows all of it. NoSamples of none."""
     phases_s = stance_phases(walk.pieces, params) if two_passes else None
-    chain, scorer = FootInertial(params, phases_s=phases_s), Scorer(walk.truth)
+    chain, scorer = ConstrainedFoot(params, phases_s), Scorer(walk.truth)
     judged: list[StanceBlock] = []
     steps: list[StepEvent] = []
     for output in outputs(chain, walk.pieces):

@@ -7,8 +7,10 @@ a later one, from which it applies. So the same samples give the same track, how
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from pdr_core.notices import Tally
-from pdr_core.records import HeadingObservation, HeadingSource, Level, Notice, StepEvent
+from pdr_core.records import HeadingObservation, HeadingSource, Level, Notice, PositionError, StepEvent
 
 NOTHING_DUE_NS = 2**63 - 1
 UNASKED = "heading observations answer no step that waits, left out: they come too late, or twice"
@@ -47,9 +49,9 @@ class Answers:
         step = self._asked.pop((answer.step_index, answer.step_ns), None)
         if step is None:
             self._tally.add("heading_unasked", Level.WARN, UNASKED, answer.step_ns)
-        elif answer.source is not HeadingSource.NONE and not usable(answer, step):
+        elif not answer.empty and not usable(answer, step):
             self._tally.add("heading_unusable", Level.WARN, UNUSABLE, answer.step_ns)
-        elif answer.source is not HeadingSource.NONE:
+        elif not answer.empty:
             self._given.append(answer)
 
     def missing(self, stamp_ns: int) -> bool:
@@ -72,5 +74,13 @@ class Answers:
 
 def usable(answer: HeadingObservation, step: StepEvent) -> bool:
     """Tell whether an answer can be used, and used the same way however late it came."""
-    known = math.isfinite(answer.yaw_error_rad) and math.isfinite(answer.yaw_error_sd_rad)
-    return known and answer.yaw_error_sd_rad > 0.0 and answer.applies_from_ns >= step.answer_due_ns
+    known = math.isfinite(answer.yaw_error_rad) and 0.0 < answer.yaw_error_sd_rad < math.inf
+    heading = known or answer.source is HeadingSource.NONE
+    place = answer.position is None or place_usable(answer.position)
+    return heading and place and answer.applies_from_ns >= step.answer_due_ns
+
+
+def place_usable(place: PositionError) -> bool:
+    """Tell whether the error of a place is a number and its covariance one."""
+    finite = np.isfinite(place.error_m).all() and np.isfinite(place.covariance_m2).all()
+    return bool(finite and np.linalg.eigvalsh(place.covariance_m2)[0] > 0.0)

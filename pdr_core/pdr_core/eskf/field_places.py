@@ -15,9 +15,8 @@ import numpy as np
 from pdr_core.eskf.settings import FieldSettings
 from pdr_core.eskf.state import PLACES, FilterState
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.magnetic import UP, azimuth_rad, dip_rad
+from pdr_core.maths.magnetic import UP, alike, alike_angles, azimuth_rad, dip_rad, same_field
 from pdr_core.maths.vector import Vector, difference, norm
-from pdr_core.records import Floats
 
 NONE, CHANGE, HEADING = 0, 1, 2  # what is used of the field: the values of records.FieldUse
 APART_M = 0.3  # nearer places show the same iron
@@ -58,19 +57,4 @@ def clean(s: FieldSettings, state: FilterState) -> bool:
 @compiled
 def near(norm_tesla: float, dip: float, other_norm_tesla: float, other_dip_rad: float, s: FieldSettings) -> bool:
     """Return whether two fields are alike in strength and dip."""
-    return (
-        abs(norm_tesla / other_norm_tesla - 1.0) < s.norm_tolerance and abs(dip - other_dip_rad) < s.dip_tolerance_rad
-    )
-
-
-@compiled
-def alike(values: Floats, tolerance: float) -> bool:
-    """Return whether no two of n values, (n,), are farther apart than the tolerance."""
-    return bool(np.max(values) - np.min(values) < tolerance)
-
-
-@compiled
-def alike_angles(angles_rad: Floats, tolerance_rad: float) -> bool:
-    """Return whether no two of n angles, (n,), are farther apart than the tolerance."""
-    turned = angles_rad - angles_rad[0]
-    return alike(turned - 2.0 * np.pi * np.round(turned / (2.0 * np.pi)), tolerance_rad)
+    return same_field(norm_tesla, dip, other_norm_tesla, other_dip_rad, s.norm_tolerance, s.dip_tolerance_rad)

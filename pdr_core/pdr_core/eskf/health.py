@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pdr_core.eskf import initial_yaw
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.field_heading import known
 from pdr_core.eskf.state import FilterState
@@ -11,6 +12,14 @@ LOST_AFTER_S = 5.0  # no step takes so long
 FIELD_USED = {
     FieldUse.CHANGE: "the magnetic field shows the gyro bias; a compass it is where many places in a row agree",
     FieldUse.HEADING: "the magnetic field is clean: it shows the gyro bias and the heading",
+}
+NO_COMPASS = {
+    initial_yaw.MOVED: "the foot moved in the first second",
+    initial_yaw.TOO_FEW: "the first second has fewer than three fields",
+    initial_yaw.UNSTEADY: "the field is not steady while the foot rests",
+    initial_yaw.STEEP: "the field is too steep here",
+    initial_yaw.NOT_EARTHS: "the field is not as strong as the Earth's: not calibrated, or iron is near",
+    initial_yaw.NOT_PLACES: "the field differs from place.field_norm_tesla and field_dip_deg: iron is near",
 }
 
 
@@ -31,12 +40,25 @@ def notices(state: FilterState) -> list[Notice]:
     if gaps:
         text = "intervals were not navigated: the position was held across them"
         found.append(Notice(Level.WARN, "coasted", text, gaps, start_ns))
+    if state.compass != initial_yaw.UNDECIDED:
+        found.append(compass_notice(state))
     if state.field_use:
         found.append(Notice(Level.OK, "field_use", FIELD_USED[FieldUse(int(state.field_use))], 1, start_ns))
     if state.field_rejected > state.field_windows:
         text = "most stances contradict the magnetic field: is the magnetometer calibrated (`pdr calibrate mag`)?"
         found.append(Notice(Level.WARN, "field_contradicts", text, int(state.field_rejected), start_ns))
     return found
+
+
+def compass_notice(state: FilterState) -> Notice:
+    """Return whether the field has given the yaw at the start, and why not."""
+    start_ns, why = int(state.alignment_start_ns), NO_COMPASS.get(int(state.compass))
+    if why:
+        text = f"the yaw at the start is the given one, not the magnetometer's: {why}"
+        return Notice(Level.WARN, "initial_yaw_given", text, 1, start_ns)
+    yaw_deg, sd_deg = np.degrees([state.compass_yaw_rad, state.compass_yaw_sd_rad])
+    text = f"the yaw at the start is the magnetometer's: {yaw_deg:+.1f} deg from east, good to {sd_deg:.0f} deg"
+    return Notice(Level.OK, "initial_yaw", text, 1, start_ns)
 
 
 def judged(state: FilterState, resets: int) -> FilterHealth:

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import field_heading, field_places, floor, quiet_field, rare_bias
+from pdr_core.eskf import eleven_states, field_heading, field_places, floor, initial_yaw, quiet_field, rare_bias
 from pdr_core.eskf.align import align
 from pdr_core.eskf.field_updates import stand_in_field
 from pdr_core.eskf.gravity import tilt_is_lost
@@ -84,12 +84,15 @@ def update(now: Sample, s: Settings, state: FilterState) -> None:
     """Correct the estimate by what a sample tells beside its interval."""
     if state.aligning:
         align(now.stamp_ns, now.force_mps2, now.rate_radps, s, state)
+        if s.compass_start:
+            initial_yaw.watch(now.field_tesla, now.field_sd_tesla, state)
+            if not state.aligning:
+                initial_yaw.decide(s, state)
     else:
         if state.adrift:
             hold(state)
         if now.rest_sd_radps > 0.0:
-            rare_bias.weigh(now.rest_rate_radps, now.rest_sd_radps, s.initial_sd, state)
-            zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
+            rest(now, s, state)
         if s.field.use > field_places.NONE and (state.field_open or now.field_sd_tesla >= 0.0):
             watch_field(now, s, state)
         roam(state)
@@ -102,6 +105,16 @@ def update(now: Sample, s: Settings, state: FilterState) -> None:
     state.last_rate_radps[:] = now.rate_radps
     state.last_gyro_sd_radps = now.gyro_sd_radps
     state.samples += 1
+
+
+@compiled
+def rest(now: Sample, s: Settings, state: FilterState) -> None:
+    """Take the mean rate of a rest, which shows the gyro bias, into the estimate."""
+    if s.heading_states:
+        rare_bias.weigh(now.rest_rate_radps, now.rest_sd_radps, s.initial_sd, state)
+        zero_rate(now.rest_rate_radps, now.rest_sd_radps, state)
+    else:
+        eleven_states.take_rest(now.rest_rate_radps, now.rest_sd_radps, s.gyro_bias_sd_radps, state)
 
 
 @compiled
@@ -158,6 +171,8 @@ def propagate(now: Sample, s: Settings, state: FilterState) -> Link:
     )
     k = link(R_before, R_after, force_before, force_after, dt_s, s.process.bias_correlation_s)
     q = noise(now.accel_sd_mps2, now.gyro_sd_radps, dt_s, s.process)
+    if not s.heading_states:
+        q[eleven_states.YAW] = 0.0
     propagate_covariance(state.P, k, q)
     carry(k, state.cross)
     if floor.known(state):
@@ -195,6 +210,8 @@ def coast(dt_s: float, s: Settings, state: FilterState) -> None:
     state.adrift = True
     state.velocity_mps[:] = 0.0
     cross_gap(state.P, state.cross, dt_s, s.process)
+    if not s.heading_states:
+        state.P[eleven_states.YAW, eleven_states.YAW] = 0.0
     state.gaps += not state.coasting
     floor.forget(state)
     forget_velocity(state.north_cross)

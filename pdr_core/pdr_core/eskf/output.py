@@ -2,14 +2,13 @@
 
 import numpy as np
 
+from pdr_core.conventions import UNKNOWN_RATE_SD_RADPS
 from pdr_core.eskf.error_state import ATTITUDE, GYRO_BIAS, POSITION, VELOCITY
 from pdr_core.eskf.state import FilterState
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import rows
 from pdr_core.maths.vector import Matrix, Triple, Vector, added, column, cross, rotated, transposed
 from pdr_core.records import Floats, NavBlock
-
-UNKNOWN_RATE_SD_RADPS = 10.0  # of a foot whose gyro is off
 
 
 def empty_nav(count: int) -> NavBlock:

@@ -30,6 +30,7 @@ class ProcessNoise(NamedTuple):
     bias_correlation_s: float
     gap_speed_mps: float
     gap_rate_radps: float
+    share_about_up: float = 1.0  # of the noise of a rate: less, where the turn about the vertical is known better
 
 
 class Link(NamedTuple):
@@ -103,6 +104,7 @@ def noise(accel_sd_mps2: float, gyro_sd_radps: float, dt_s: float, process: Proc
         q[ATTITUDE + i] = (gyro_sd_radps * dt_s) ** 2
         q[ACCEL_BIAS + i] = process.accel_bias_walk**2 * dt_s
         q[GYRO_BIAS + i] = process.gyro_bias_walk**2 * dt_s
+    q[ATTITUDE + 2] *= process.share_about_up**2
     return q
 
 

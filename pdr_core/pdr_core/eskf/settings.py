@@ -14,6 +14,7 @@ class FieldSettings(NamedTuple):
     gate: float
     norm_tesla: float  # 0: nobody knows
     dip_rad: float
+    declination_rad: float
     norm_tolerance: float
     dip_tolerance_rad: float
     azimuth_tolerance_rad: float
@@ -25,11 +26,14 @@ class Settings(NamedTuple):
     """Numbers only; times in nanoseconds where they are compared with stamps."""
 
     process: ProcessNoise
+    heading_states: bool
+    gyro_bias_sd_radps: float  # what the sensor may bring
     samples: int  # POINTS, MEANS or AVERAGES of strapdown/samples.py
     gravity_mps2: float
     gravity_from_rest: bool
     alignment_ns: int
     initial_yaw_rad: float
+    compass_start: bool  # the field gives the yaw at the start
     initial_sd: Floats  # (15,)
     zero_velocity_sd_mps: float
     contact_height_m: float

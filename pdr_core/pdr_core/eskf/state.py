@@ -36,6 +36,15 @@ ALIGNMENT = [                                 # the first moments, in which grav
     ("force_samples", np.int64),
     ("moved", np.bool_),                      # the foot did not rest
 ]
+COMPASS = [                                   # the magnetic field in these moments
+    ("compass_fields", np.int64),
+    ("compass_sum_tesla", np.float64, 3),     # in the axes of the foot
+    ("compass_square_sum", np.float64),
+    ("compass_variance_sum", np.float64),
+    ("compass", np.int64),                    # what came of it: the values of initial_yaw.py
+    ("compass_yaw_rad", np.float64),
+    ("compass_yaw_sd_rad", np.float64),
+]
 GATE = [
     ("last_accepted_ns", np.int64),           # of the zero-velocity updates
     ("contradicted_s", np.float64),           # time in stances that contradict the estimate, since one agreed
@@ -107,7 +116,19 @@ COUNTS = [                                    # what happened so far, for people
 ]
 # fmt: on
 LAYOUT = np.dtype(
-    [*ESTIMATE, *LAST_SAMPLE, *ALIGNMENT, *GATE, *STEPS, *LEVEL_GROUND, *QUIET_FIELD, *NORTH, *COUNTS], align=True
+    [
+        *ESTIMATE,
+        *LAST_SAMPLE,
+        *ALIGNMENT,
+        *COMPASS,
+        *GATE,
+        *STEPS,
+        *LEVEL_GROUND,
+        *QUIET_FIELD,
+        *NORTH,
+        *COUNTS,
+    ],
+    align=True,
 )
 FilterState = np.record
 

@@ -85,6 +85,7 @@ def step_taken(state: FilterState, s: Settings, answer_due_ns: int) -> StepEvent
             yaw_sd_rad=float(state.end_yaw_sd_rad[1]),
             answer_due_ns=answer_due_ns,
             sample_numbers=(int(state.end_sample[0]), int(state.end_sample[1])),
+            position_covariance_m2=state.end_covariance[1].copy(),
         )
     state.step_number += first or step is not None
     begin_next(state)

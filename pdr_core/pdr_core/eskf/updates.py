@@ -3,7 +3,7 @@
 import numpy as np
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.eskf import field_heading, floor, gravity, heading, zaru, zupt
+from pdr_core.eskf import field_heading, floor, gravity, heading, position, zaru, zupt
 from pdr_core.eskf.error_state import ACCEL_BIAS, ATTITUDE, GYRO_BIAS, POSITION, SIZE, VELOCITY
 from pdr_core.eskf.known_yaw import YAW, given_yaw
 from pdr_core.eskf.last_stances import correct_ends, displaced
@@ -148,6 +148,13 @@ def correct_heading(yaw_error_rad: float, sd_rad: float, state: FilterState) -> 
     R = np.eye(1) * sd_rad**2
     y = innovation(state.P, heading.H, R, heading.residual(yaw_error_rad))
     learn(y, heading.H, state)
+
+
+@compiled
+def correct_position(position_error_m: Floats, covariance_m2: Floats, state: FilterState) -> None:
+    """Tell the filter by how much its place is off, (3,), with the covariance (3, 3) of that."""
+    y = innovation(state.P, position.H, covariance_m2, position.residual(position_error_m))
+    learn(y, position.H, state)
 
 
 @compiled

@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from pdr_core.evaluation import style
+from pdr_core.evaluation.style import BESIDE_TRUTH
 from pdr_core.records import Floats
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
-
-COLOURS = (style.BLUE, style.GREEN, style.PURPLE, "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 
 
 class CourseTrack(NamedTuple):
@@ -51,5 +50,5 @@ def heights(estimates: Sequence[CourseTrack], truth: CourseTrack) -> "Figure":
 
 def looks(estimates: Sequence[CourseTrack], truth: CourseTrack) -> list[tuple[CourseTrack, str, str]]:
     """Return each track with its colour and dash; the truth lies below."""
-    coloured = [(track, COLOURS[i % len(COLOURS)], "solid") for i, track in enumerate(estimates)]
+    coloured = [(track, BESIDE_TRUTH[i % len(BESIDE_TRUTH)], "solid") for i, track in enumerate(estimates)]
     return [(truth, style.ORANGE, "dash"), *coloured]

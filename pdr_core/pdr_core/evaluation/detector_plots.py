@@ -8,6 +8,7 @@ import numpy as np
 from pdr_core.evaluation import style
 from pdr_core.evaluation.detector_curves import Curve, DetectorCurves
 from pdr_core.evaluation.detector_study import WindowSteps
+from pdr_core.evaluation.style import COLOURS
 from pdr_core.evaluation.words import spoken
 from pdr_core.records import Floats
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 
 ROW_PX, EDGES_PX = 130, 110
 OUTLINE = np.array([0.0, 1.0, 1.0, 0.0, 0.0, np.nan])  # of a band that is 1 high
-COLOURS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 BANDS = (style.PALE_GREEN, style.PALE_BLUE, "rgba(170, 68, 153, 0.20)", "rgba(230, 159, 0, 0.25)")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot", "solid")
 

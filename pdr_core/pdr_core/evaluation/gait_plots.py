@@ -21,12 +21,12 @@ FAINT = "rgba(0, 114, 178, 0.16)"
 SHORTEST_SD = 1e-6  # of lengths that have a density
 
 
-def lengths(strides: Sequence[Stride]) -> "Figure":
-    """Return the distribution of the stride lengths: histogram, kernel density and normal fit (Qiu figure 12)."""
+def lengths(strides: Sequence[Stride], counts: str = "stride") -> "Figure":
+    """Return the distribution of the stride or step lengths: histogram, kernel density, normal fit (Qiu figure 12)."""
     length_m = np.array([stride.step.length_m for stride in strides])
     density, edges_m = np.histogram(length_m, _edges(length_m), density=True)
     middle_m, width_m = 0.5 * (edges_m[1:] + edges_m[:-1]), float(edges_m[1] - edges_m[0])
-    fig = style.figure("Stride length [m]", "Density [1/m]")
+    fig = style.figure(f"{counts.capitalize()} length [m]", "Density [1/m]")
     look = {"marker": {"color": style.PALE_BLUE, "line": {"color": style.BLUE, "width": 1}}, "width": width_m}
     fig.add_bar(x=style.listed(middle_m), y=style.listed(density), name="Histogram", **look, hovertemplate="%{y:.3~g}")
     sd_m = float(np.std(length_m, ddof=1)) if len(length_m) > 2 else 0.0
@@ -89,15 +89,15 @@ def climb(strides: Sequence[Stride]) -> "Figure":
     return fig
 
 
-def heading(strides: Sequence[Stride], trace: Trace) -> "Figure":
-    """Return how far foot and walk have turned over time, without jumps at half a turn (Qiu figure 14)."""
+def heading(strides: Sequence[Stride], trace: Trace, worn_on: str = "foot", counts: str = "stride") -> "Figure":
+    """Return how far foot or chest, and walk, have turned over time, without jumps at half a turn (Qiu figure 14)."""
     time_s = trace.seconds(np.array([stride.step.stamp_ns for stride in strides]))
     foot_deg = np.rad2deg(np.cumsum([stride.turn_rad or 0.0 for stride in strides]))
     walk_deg = np.rad2deg(np.cumsum([stride.heading_change_rad or 0.0 for stride in strides]))
     fig = style.figure(style.TIME, "Turned [°]")
     rows = _thinned(len(strides))
-    style.line(fig, "Direction of the strides", time_s[rows], walk_deg[rows], style.ORANGE, unit="°", dash="dot")
-    style.line(fig, "Foot", time_s[rows], foot_deg[rows], style.BLUE, unit="°")
+    style.line(fig, f"Direction of the {counts}s", time_s[rows], walk_deg[rows], style.ORANGE, unit="°", dash="dot")
+    style.line(fig, worn_on.capitalize(), time_s[rows], foot_deg[rows], style.BLUE, unit="°")
     if np.ptp(foot_deg) > 180.0:
         fig.update_yaxes(dtick=90)
     return fig

@@ -18,6 +18,7 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, nanoseconds
 from pdr_core.evaluation.orientation_study import GaitErrors, PitchCycle
+from pdr_core.maths.runs import equal_runs
 from pdr_core.records import Flags, Floats, Stamps, StepEvent, Truth
 
 RESTING_MPS = 0.3
@@ -82,8 +83,7 @@ def resting(found: Markers) -> Flags:
     time_s = (found.stamp_ns - found.stamp_ns[0]) / NANOSECONDS
     speeds = [np.linalg.norm(np.gradient(m, time_s, axis=0), axis=1) for m in found[1:]]
     rests = np.max(speeds, axis=0) < RESTING_MPS
-    edges = [0, *(np.flatnonzero(np.diff(rests.astype(np.int8))) + 1), len(rests)]
-    for a, b in pairwise(edges):
+    for a, b in equal_runs(rests):
         if rests[a] and found.stamp_ns[min(b, len(rests) - 1)] - found.stamp_ns[a] < SHORTEST_REST_NS:
             rests[a:b] = False
     return rests

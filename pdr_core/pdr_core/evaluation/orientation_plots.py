@@ -7,8 +7,9 @@ import numpy as np
 from scipy.stats import gaussian_kde, norm
 
 from pdr_core.evaluation import style
-from pdr_core.evaluation.detector_plots import COLOURS, DASHES
+from pdr_core.evaluation.detector_plots import DASHES
 from pdr_core.evaluation.orientation_study import Drift, GaitErrors, PitchCycle
+from pdr_core.evaluation.style import COLOURS
 from pdr_core.evaluation.words import spoken
 from pdr_core.records import Floats
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from pdr_core.evaluation import style
 from pdr_core.evaluation.score import TruthView
-from pdr_core.evaluation.trace import Trace
+from pdr_core.evaluation.trace import Trace, TracePoints
 from pdr_core.records import Floats, StepEvent, TruthKind
 
 if TYPE_CHECKING:
@@ -15,26 +15,24 @@ if TYPE_CHECKING:
 
 
 def stance(trace: Trace) -> "Figure":
-    """Return the detector's statistic with its threshold on a logarithmic axis, the stances shaded."""
+    """Return the detector's statistic, if any, with its threshold on a logarithmic axis, the stances shaded."""
     points, edges_s = trace.points, np.array(trace.stance_intervals_s).reshape(-1, 2)
-    fig = style.figure(style.TIME, "Detector statistic [-]")
+    fig = style.figure(style.TIME, "")
     outline = np.array([0.0, 1.0, 1.0, 0.0, 0.0, np.nan])
     style.area(fig, "Stance", edges_s[:, [0, 0, 1, 1, 0, 0]].ravel(), np.tile(outline, len(edges_s)), style.PALE_GREEN)
+    if (points.statistic > 0.0).any():
+        _add_statistic(fig, points)
+    fig.update_layout(yaxis={"visible": False, "range": [0, 1], "fixedrange": True, "title": None})
+    return fig
+
+
+def _add_statistic(fig: "Figure", points: TracePoints) -> None:
     style.line(fig, "Statistic", points.time_s, style.positive(points.statistic), style.BLUE, unit="", width=1.2)
     style.line(fig, "Threshold", points.time_s, style.positive(points.threshold), style.ORANGE, unit="", dash="dash")
     for logarithmic in fig.data[1:]:
         logarithmic.update(yaxis="y2", hovertemplate="%{y:.3~g}")
-    fig.update_layout(
-        yaxis2={
-            **fig.layout.yaxis.to_plotly_json(),
-            "type": "log",
-            "overlaying": "y",
-            "dtick": 1,
-            "exponentformat": "power",
-        },
-        yaxis={"visible": False, "range": [0, 1], "fixedrange": True, "title": None},
-    )
-    return fig
+    axis = {**fig.layout.yaxis.to_plotly_json(), "title": {"text": "Detector statistic [-]"}}
+    fig.update_layout(yaxis2={**axis, "type": "log", "overlaying": "y", "dtick": 1, "exponentformat": "power"})
 
 
 def height(trace: Trace, view: TruthView | None) -> "Figure":
@@ -75,8 +73,8 @@ def deviation(trace: Trace) -> "Figure":
     return fig
 
 
-def strides(steps: Sequence[StepEvent]) -> "Figure":
-    """Return length and heading of every stride, one above the other; the bars are 1 sigma of the heading."""
+def strides(steps: Sequence[StepEvent], counts: str = "stride") -> "Figure":
+    """Return length and heading of every stride or step, one above the other; the bars are 1 sigma of the heading."""
     from plotly.subplots import make_subplots
 
     fig = make_subplots(rows=2, cols=1, shared_xaxes=True, vertical_spacing=0.08)
@@ -92,7 +90,7 @@ def strides(steps: Sequence[StepEvent]) -> "Figure":
     fig.update_yaxes(title_text="Length [m]", rangemode="tozero", row=1, col=1)
     quarters = {"dtick": 90} if np.ptp(heading_rad) > np.pi else {}
     fig.update_yaxes(title_text="Heading [°]", **quarters, row=2, col=1)
-    fig.update_xaxes(title_text="Stride", row=2, col=1)
+    fig.update_xaxes(title_text=counts.capitalize(), row=2, col=1)
     return fig
 
 

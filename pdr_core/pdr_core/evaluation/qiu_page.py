@@ -9,6 +9,23 @@ from pdr_core.evaluation.page import page
 from pdr_core.evaluation.report import Picture
 
 
+class PageWords(NamedTuple):
+    """What a page of simulated walks says about itself."""
+
+    title: str
+    above: str  # the heading
+    heading: str
+    below: str
+
+
+WORDS = PageWords(
+    "Qiu's walks, simulated",
+    "Simulated walks with the sensor of Qiu's Table 1",
+    "Qiu's Tables 3, 4 and 5 and his stairs",
+    "Distance: the sum of the stride lengths. End error: horizontal, of the way from start to end.",
+)
+
+
 class TitledTable(NamedTuple):
     """A table of text."""
 
@@ -35,7 +52,7 @@ class Pictures(NamedTuple):
 def qiu_page(tables: Sequence[TitledTable], walks: Sequence[DrawnWalk], version: str, commit: str) -> str:
     """Return the page as text."""
     shown = [Pictures(walk.name, list(pictures(walk, i))) for i, walk in enumerate(walks)]
-    return page("qiu.html.j2", tables=tables, walks=shown, version=version, commit=commit)
+    return page("walks.html.j2", words=WORDS, tables=tables, walks=shown, version=version, commit=commit)
 
 
 def pictures(walk: DrawnWalk, number: int) -> Iterator[Picture]:

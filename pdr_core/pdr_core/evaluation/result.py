@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pdr_core.evaluation.external import External
 from pdr_core.evaluation.gait_totals import GaitTotals
+from pdr_core.evaluation.saving import Saving
 from pdr_core.evaluation.score import TruthScore
 from pdr_core.evaluation.words import counted, duration, metres, share
 from pdr_core.records import Floats, Level, Notice, TruthKind
@@ -24,6 +26,7 @@ class Hindsight(NamedTuple):
 
 
 CAUSAL = Hindsight()
+CHEST = "chest"  # the pipeline whose steps are those of a body
 
 
 @dataclass(frozen=True)
@@ -49,11 +52,23 @@ class Result:
     truth: TruthScore | None
     version: str
     commit: str
+    saving: Saving | None = None  # None: the gyro was not switched
+    external: External | None = None  # None: nobody else was asked
 
     @property
     def rate_hz(self) -> float:
         """Mean sample rate; NaN of fewer than two samples."""
         return (self.samples - 1) / self.duration_s if self.duration_s > 0.0 else math.nan
+
+    @property
+    def counts(self) -> str:
+        """What is counted: a foot makes strides, a body steps."""
+        return "step" if self.pipeline == CHEST else "stride"
+
+    @property
+    def worn_on(self) -> str:
+        """What the sensor follows."""
+        return "chest" if self.pipeline == CHEST else "foot"
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the result as strict JSON knows it: plain types, None for NaN and infinity."""
@@ -64,6 +79,10 @@ class Result:
         content["notices"] = [_notice(notice) for notice in self.notices]
         content["config"] = self.config
         content["truth"] = _truth(self.truth) if self.truth else None
+        if self.saving:
+            content["energy"] = self.saving.to_mapping()
+        if self.external:
+            content["external"] = self.external.to_mapping()
         return plain(content | {"version": self.version, "commit": self.commit})
 
     def to_json(self) -> str:
@@ -78,11 +97,13 @@ class SensorsResult:
     recording: str
     format: str
     sensors: Mapping[str, Result]
+    body: Result | None = None  # between two feet
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the results as strict JSON knows them."""
         sensors = {name: result.to_mapping() for name, result in self.sensors.items()}
-        return {"recording": self.recording, "format": self.format, "sensors": sensors}
+        body = {"body": self.body.to_mapping()} if self.body else {}
+        return {"recording": self.recording, "format": self.format, "sensors": sensors} | body
 
     def to_json(self) -> str:
         """Return the results as JSON text. Raise TypeError if a configuration holds something JSON cannot."""
@@ -92,12 +113,17 @@ class SensorsResult:
 def in_words(result: Result | SensorsResult) -> str:
     """Return one to five plain sentences; one line for each of several sensors."""
     if isinstance(result, SensorsResult):
-        return "\n".join(f"{name}: {in_words(one)}" for name, one in result.sensors.items())
+        named = [*result.sensors.items(), *([("body", result.body)] if result.body else [])]
+        return "\n".join(f"{name}: {in_words(one)}" for name, one in named)
     if not result.strides:
-        return " ".join([f"No stride was found within {duration(result.duration_s)}.", *_notices(result.notices)])
-    walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, 'stride')}"
+        return " ".join(
+            [f"No {result.counts} was found within {duration(result.duration_s)}.", *_notices(result.notices)]
+        )
+    walked = f"Walked {metres(result.distance_m)} in {counted(result.strides, result.counts)}"
     how = ", smoothed" if result.smoothed else ""
     sentences = [f"{walked} within {duration(result.duration_s)}{how}.", *_gait(result.gait), *_error(result)]
+    sentences += [result.saving.in_words()] if result.saving else []
+    sentences += [result.external.in_words()] if result.external else []
     return " ".join([*sentences, *_notices(result.notices)])
 
 

@@ -1,4 +1,4 @@
-"""One look for all figures: colours that colour-blind people can tell apart (Okabe and Ito 2008) on white."""
+"""One look for all figures: colours that colour-blind people can tell apart (Okabe and Ito 2008; Tol 2021) on white."""
 
 import math
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,8 @@ ORANGE = "#D55E00"  # the truth
 GREEN = "#009E73"  # stance, height
 PURPLE = "#AA4499"  # the end
 INK = "#222222"
+COLOURS = (BLUE, ORANGE, GREEN, PURPLE, "#56B4E9", "#E69F00", INK, "#882255", "#999933")  # of lines side by side
+BESIDE_TRUTH = tuple(colour for colour in COLOURS if colour != ORANGE)  # where one line is the truth
 PALE_BLUE = "rgba(0, 114, 178, 0.18)"
 PALE_GREEN = "rgba(0, 158, 115, 0.22)"
 GRID = "#E3E6E8"

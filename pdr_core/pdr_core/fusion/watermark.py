@@ -49,6 +49,13 @@ class Watermark(Generic[Item]):
         self._marks_ns = dict.fromkeys(self._marks_ns, NO_STAMP)
         return self._given_out(len(self._waiting))
 
+    @property
+    def awaited_ns(self) -> dict[str, int]:
+        """The streams that hold something back, and the earliest stamp that waits for them."""
+        earliest_ns = min((stamp_ns for stamp_ns, *_ in self._waiting), default=NO_STAMP)
+        marks_ns = {stream: mark_ns for stream, mark_ns in self._marks_ns.items() if mark_ns is not None}
+        return {stream: earliest_ns for stream, mark_ns in marks_ns.items() if mark_ns < earliest_ns}
+
     def _certain(self) -> list[tuple[str, Item]]:
         marks_ns = [mark_ns for mark_ns in self._marks_ns.values() if mark_ns is not None]
         certain = [stamp_ns for stamp_ns, *_ in self._waiting if not marks_ns or stamp_ns <= min(marks_ns)]

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from pdr_core.conventions import EARTH_FIELD_TESLA
 from pdr_core.intake.first_look import FirstLook
 from pdr_core.notices import Tally
 from pdr_core.records import Floats, Level, Stamps
 
 MAG_UNITS = {"T": 1.0, "uT": 1e-6, "nT": 1e-9, "G": 1e-4, "mG": 1e-7}
-EARTH_TESLA = (22e-6, 67e-6)  # everywhere on the ground (World Magnetic Model 2025)
 CREDIBLE_TESLA = (10e-6, 150e-6)  # with the iron of a shoe or a room
 
 
@@ -42,5 +42,5 @@ class FieldPlausibility:
 
 def probable_unit(norm: float) -> str:
     """Return the unit in which a field of such a strength is the Earth's, or nothing."""
-    fits = (unit for unit, tesla in MAG_UNITS.items() if EARTH_TESLA[0] <= norm * tesla <= EARTH_TESLA[1])
+    fits = (unit for unit, tesla in MAG_UNITS.items() if EARTH_FIELD_TESLA[0] <= norm * tesla <= EARTH_FIELD_TESLA[1])
     return next(fits, "")

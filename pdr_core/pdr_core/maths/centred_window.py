@@ -22,9 +22,16 @@ def centred_windows(stamp_ns: Stamps, start: int, stop: int, half_window_ns: int
             first += 1
         while last < stamp_ns.shape[0] and stamp_ns[last] - stamp_ns[i] <= half_window_ns:
             last += 1
-        firsts[i - start] = min(first, i - 1) if i > 0 and beside(stamp_ns, i - 1) else first
-        lasts[i - start] = max(last, i + 2) if i + 1 < stamp_ns.shape[0] and beside(stamp_ns, i) else last
+        firsts[i - start], lasts[i - start] = with_neighbours(stamp_ns, stamp_ns.shape[0], i, first, last)
     return firsts, lasts
+
+
+@compiled
+def with_neighbours(stamp_ns: Stamps, size: int, i: int, first: int, last: int) -> tuple[int, int]:
+    """Return the window first:last of sample i, one of so many, and those beside it."""
+    first = min(first, i - 1) if i > 0 and beside(stamp_ns, i - 1) else first
+    last = max(last, i + 2) if i + 1 < size and beside(stamp_ns, i) else last
+    return first, last
 
 
 @compiled

@@ -15,6 +15,7 @@ from typing import TypeVar, cast
 
 import numba
 from numba.core import config
+from numba.extending import register_jitable
 
 F = TypeVar("F", bound=Callable)
 PACKAGES = Path(__file__).parents[2]  # the folder that holds pdr_core
@@ -73,3 +74,8 @@ def compiled(function: F) -> F:
         return cast(F, numba.njit(cache=True, error_model="numpy")(function))
     finally:
         setattr(config, "CACHE_DIR", before)  # noqa: B010
+
+
+def compilable(function: F) -> F:
+    """Let compiled code call a function, which Python runs as it is: a call of compiled code would cost it more."""
+    return register_jitable(function)

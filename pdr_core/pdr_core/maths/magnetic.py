@@ -22,6 +22,7 @@ from pdr_core.maths import quaternion
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import Quaternion
 from pdr_core.maths.vector import Triple, Vector, cross, dot, norm
+from pdr_core.records import Floats
 
 UP = (0.0, 0.0, 1.0)  # in a world frame
 
@@ -81,3 +82,29 @@ def azimuth_by_rotation(field: Vector) -> Triple:
     """
     steep = field[2] / (field[0] ** 2 + field[1] ** 2)
     return -steep * field[0], -steep * field[1], 1.0
+
+
+@compiled
+def same_field(
+    norm_tesla: float,
+    dip: float,
+    other_norm_tesla: float,
+    other_dip_rad: float,
+    norm_tolerance: float,
+    dip_tolerance_rad: float,
+) -> bool:
+    """Return whether two fields are alike in strength, to a share of it, and in dip."""
+    return abs(norm_tesla / other_norm_tesla - 1.0) < norm_tolerance and abs(dip - other_dip_rad) < dip_tolerance_rad
+
+
+@compiled
+def alike(values: Floats, tolerance: float) -> bool:
+    """Return whether no two of n values, (n,), are farther apart than the tolerance."""
+    return bool(np.max(values) - np.min(values) < tolerance)
+
+
+@compiled
+def alike_angles(angles_rad: Floats, tolerance_rad: float) -> bool:
+    """Return whether no two of n angles, (n,), are farther apart than the tolerance."""
+    turned = angles_rad - angles_rad[0]
+    return alike(turned - 2.0 * np.pi * np.round(turned / (2.0 * np.pi)), tolerance_rad)

@@ -88,6 +88,12 @@ def turn_about_up_rad(before: Quaternion, after: Quaternion) -> float:
 
 
 @compiled
+def turned_about_up(q: Quaternion, turn_rad: float) -> Four:
+    """Return the attitude of a body, world from body, after a turn about the vertical."""
+    return multiply((0.0, 0.0, np.sin(0.5 * turn_rad), np.cos(0.5 * turn_rad)), q)
+
+
+@compiled
 def from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Four:
     """Return the quaternion of roll, pitch, yaw about the fixed axes x, y, z (REP-103)."""
     cr, sr = np.cos(0.5 * roll_rad), np.sin(0.5 * roll_rad)

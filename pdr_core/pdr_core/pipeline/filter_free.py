@@ -16,7 +16,7 @@ from pdr_core.eskf.step_events import step_taken
 from pdr_core.params import Params
 from pdr_core.pipeline.paces import accelerations, pace
 from pdr_core.records import (
-    NO_SAMPLES,
+    NO_VERDICTS,
     AttitudeBlock,
     Flags,
     Floats,
@@ -59,11 +59,7 @@ def known_orientation(stamp_ns: Stamps, quat_xyzw: Floats) -> AttitudeBlock:
     return AttitudeBlock(stamp_ns, np.ascontiguousarray(quat_xyzw), np.zeros((n, 3, 3)), np.zeros((n, 3)))
 
 
-NO_NUMBERS = np.zeros(0)
-NONE_JUDGED = StanceBlock(
-    NO_SAMPLES, np.zeros(0, np.bool_), NO_NUMBERS, NO_NUMBERS, NO_NUMBERS, np.zeros((0, 3)), NO_NUMBERS
-)
-NOTHING = Held(NONE_JUDGED, known_orientation(np.zeros(0, np.int64), np.zeros((0, 4))), np.zeros(0, np.bool_))
+NOTHING = Held(NO_VERDICTS, known_orientation(np.zeros(0, np.int64), np.zeros((0, 4))), np.zeros(0, np.bool_))
 
 
 class FilterFree:

@@ -8,6 +8,7 @@ there.
 
 import numpy as np
 
+from pdr_core.conventions import UNKNOWN_RATE_SD_RADPS
 from pdr_core.eskf.error_state import ATTITUDE, POSITION, SIZE
 from pdr_core.eskf.settings import Settings
 from pdr_core.eskf.state import FilterState
@@ -21,7 +22,6 @@ from pdr_core.strapdown.dedrift import Accelerations, Track
 
 YAW = ATTITUDE + 2
 UNKNOWN_SPEED_SD_MPS = 2.0  # of a foot in a swing whose start nobody has seen
-UNKNOWN_RATE_SD_RADPS = 10.0  # of a foot whose gyro is off
 
 
 @compiled

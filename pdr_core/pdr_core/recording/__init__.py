@@ -1,6 +1,6 @@
 """Recordings: opened through one door whatever their format, and the files that a run writes."""
 
 from pdr_core.recording.opening import open_recording
-from pdr_core.recording.session import RecordingError, Sensor, Session
+from pdr_core.recording.session import Arrivals, RecordingError, Sensor, Session
 
-__all__ = ["RecordingError", "Sensor", "Session", "open_recording"]
+__all__ = ["Arrivals", "RecordingError", "Sensor", "Session", "open_recording"]

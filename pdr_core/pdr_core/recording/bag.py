@@ -9,10 +9,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from pdr_core.recording.bag_fixes import arrivals
 from pdr_core.recording.bag_messages import BagReader
 from pdr_core.recording.bag_storage import SUFFIXES, open_storage
 from pdr_core.recording.ros1_storage import SUFFIX as ROS1
-from pdr_core.recording.session import RecordingError, Sensor, Session, put_warning
+from pdr_core.recording.session import Arrivals, RecordingError, Sensor, Session, put_warning
 from pdr_core.records import ImuBlock, Notice, Truth
 
 IMU, MAGNETIC = "sensor_msgs/msg/Imu", "sensor_msgs/msg/MagneticField"
@@ -34,7 +35,11 @@ def open_bag_session(path: Path) -> Session:
     fields = field_topics(list(imus.values()), [t for t, msgtype in topics.items() if msgtype == MAGNETIC])
     sensors = {name: Sensor(name, _truth(bag, t, truths), _reading(bag, t, fields)) for name, t in imus.items()}
     name = path.name if path.is_dir() else path.stem
-    return Session(name, path, FORMATS.get(files[0].suffix, "rosbag2"), sensors, notices)
+
+    def with_fixes(sensor: str, topic: str) -> Arrivals:
+        return arrivals(bag, imus[sensor], topic)
+
+    return Session(name, path, FORMATS.get(files[0].suffix, "rosbag2"), sensors, notices, arrivals=with_fixes)
 
 
 def sensor_names(topics: Iterable[str]) -> dict[str, str]:

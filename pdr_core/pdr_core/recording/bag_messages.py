@@ -9,10 +9,10 @@ import numpy as np
 
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.field_pairing import FieldPairing
-from pdr_core.recording.bag_storage import Storage
 from pdr_core.recording.imu_cdr import imu_block_from_cdr
 from pdr_core.recording.mag_cdr import field_block_from_cdr
 from pdr_core.recording.session import put_warning
+from pdr_core.recording.storage import Storage
 from pdr_core.records import ImuBlock, Level, Notice, Truth, TruthKind, joined, length, part
 
 FIELD_WAIT_NS = NANOSECONDS  # by so much a magnetometer may have been recorded later than its inertial sensor
@@ -41,13 +41,13 @@ class BagReader:
 
     def imu_blocks(self, topic: str, max_samples: int) -> Iterator[ImuBlock]:
         """Yield the samples of a sensor_msgs/Imu topic, at most `max_samples` at a time."""
-        messages, count = self._raw([topic]), Count()
+        messages, count = self.messages_of([topic]), Count()
         while piece := list(islice(messages, max_samples)):
             yield from self._blocks([cdr for _, cdr in piece], imu_block_from_cdr, topic, count)
 
     def paired_blocks(self, topic: str, field_topic: str, max_samples: int) -> Iterator[ImuBlock]:
         """Yield the samples of a sensor_msgs/Imu topic with the field of a sensor_msgs/MagneticField topic."""
-        messages, pairing = self._raw([topic, field_topic]), FieldPairing(FIELD_WAIT_NS)
+        messages, pairing = self.messages_of([topic, field_topic]), FieldPairing(FIELD_WAIT_NS)
         count, field_count = Count(), Count()
         while piece := list(islice(messages, max(max_samples, AT_ONCE))):
             cdr = {t: [raw for name, raw in piece if name == t] for t in (topic, field_topic)}
@@ -63,15 +63,16 @@ class BagReader:
         from rosbags.typesys import Stores, get_typestore
 
         decode, msgtype = get_typestore(Stores.ROS2_JAZZY).deserialize_cdr, self.topics()[topic]
-        decoded = [_decoded(decode, cdr, msgtype) for _, cdr in self._raw([topic])]
+        decoded = [_decoded(decode, cdr, msgtype) for _, cdr in self.messages_of([topic])]
         messages = [m for m in decoded if m is not None]
         if len(messages) < len(decoded):
-            self._tell_unreadable(topic, len(decoded) - len(messages), 0)
+            self.tell_unreadable(topic, len(decoded) - len(messages), 0)
         stamps = [m.header.stamp.sec * NANOSECONDS + m.header.stamp.nanosec for m in messages]
         points = [(p.x, p.y, p.z) for p in map(_point, messages)]
         return Truth(TruthKind.POSITION, np.array(stamps, np.int64), np.array(points, np.float64).reshape(-1, 3))
 
-    def _tell_unreadable(self, topic: str, count: int, near_ns: int) -> None:
+    def tell_unreadable(self, topic: str, count: int, near_ns: int) -> None:
+        """Note that messages of a topic could not be decoded."""
         text = f"{topic}: messages that cannot be decoded were left out."
         put_warning(self.notices, "unreadable_message", text, count, near_ns)
 
@@ -87,12 +88,13 @@ class BagReader:
         blocks = _decoded_blocks(messages, decode) if messages else []
         if missing := len(messages) - sum(map(length, blocks)):
             count.unreadable += missing
-            self._tell_unreadable(topic, count.unreadable, count.last_stamp_ns)
+            self.tell_unreadable(topic, count.unreadable, count.last_stamp_ns)
         if blocks:
             count.last_stamp_ns = int(blocks[-1][0][-1])
             yield joined(blocks)
 
-    def _raw(self, topics: Collection[str]) -> Iterator[tuple[str, bytes]]:
+    def messages_of(self, topics: Collection[str]) -> Iterator[tuple[str, bytes]]:
+        """Yield topic and bytes of the messages of these topics, in the order of the files."""
         for storage in self.storages:
             yield from self._raw_from(storage, topics)
 

@@ -1,36 +1,27 @@
 """The files of a bag, by topic: through their index where it can be read, and as far as they go where it cannot."""
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
-Messages = Callable[[Collection[str]], Iterator[tuple[str, bytes]]]
+from pdr_core.recording.mcap_salvage import salvaged_mcap
+from pdr_core.recording.ros1_storage import SUFFIX as ROS1
+from pdr_core.recording.ros1_storage import ros1_storage
+from pdr_core.recording.sqlite_salvage import ends_within_page, salvaged_sqlite
+from pdr_core.recording.storage import Storage
+
 SUFFIXES = {".mcap": "mcap", ".db3": "sqlite3"}
-
-
-class Storage(NamedTuple):
-    """One file of a bag. `messages(topics)` yields topic and CDR bytes, and raises anything where it is damaged."""
-
-    path: Path
-    topics: dict[str, str]  # message type by topic
-    messages: Messages
 
 
 def open_storage(path: Path) -> Storage:
     """Open a bag file, or a directory that must be read as a whole, whatever its state; nothing readable: no topics."""
-    from pdr_core.recording.mcap_salvage import salvaged_mcap
-    from pdr_core.recording.ros1_storage import SUFFIX as ROS1
-    from pdr_core.recording.ros1_storage import ros1_messages
-    from pdr_core.recording.sqlite_salvage import ends_within_page, salvaged_sqlite
-
     if path.suffix == ROS1:
-        return Storage(path, *ros1_messages(path))
+        return ros1_storage(path)
     if path.suffix == ".db3" and ends_within_page(path):
-        return Storage(path, *salvaged_sqlite(path))
+        return salvaged_sqlite(path)
     try:
         return _indexed(path)
     except Exception:  # a damaged file makes rosbags raise anything
-        return Storage(path, *(salvaged_mcap(path) if path.suffix == ".mcap" else salvaged_sqlite(path)))
+        return salvaged_mcap(path) if path.suffix == ".mcap" else salvaged_sqlite(path)
 
 
 def _indexed(path: Path) -> Storage:

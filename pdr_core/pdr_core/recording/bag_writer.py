@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pdr_core.recording.message_types import known_types
 from pdr_core.recording.session import RecordingError
 
 if TYPE_CHECKING:
@@ -20,11 +21,8 @@ class BagWriter:
         """Prepare a bag at `path`; `definitions`: texts of messages that ROS 2 Jazzy does not bring, by type."""
         from rosbags.rosbag2 import StoragePlugin, Writer
         from rosbags.rosbag2.errors import WriterError
-        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-        self._types = get_typestore(Stores.ROS2_JAZZY)
-        for msgtype, text in definitions.items():
-            self._types.register(get_types_from_msg(text, msgtype))
+        self._types = known_types(definitions)
         self._connections: dict[str, Connection] = {}
         try:
             self._writer = Writer(path, version=9, storage_plugin=StoragePlugin.MCAP)

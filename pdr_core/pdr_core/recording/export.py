@@ -1,6 +1,6 @@
 """Writes recordings: complete under their final name, or not at all."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -8,6 +8,7 @@ from pdr_core.recording.bag_export import write_bag
 from pdr_core.recording.session import RecordingError, Sensor, Session, put_warning
 from pdr_core.recording.text_export import truth_file, write_text
 from pdr_core.records import Truth, TruthKind
+from pdr_core.records_external import FixBlock
 
 BARE, TEXT = ".mcap", ".csv"
 OTHERS = {".bag", ".db3", ".mat", ".tsv", ".txt", ".tum", ".yaml"}  # files that look like a format of ours
@@ -24,12 +25,14 @@ def write_recording(session: Session, sensors: Sequence[Sensor], output: Path, o
     if output.suffix.lower() == TEXT and len(sensors) > 1:
         names = ", ".join(sensor.name for sensor in sensors)
         raise RecordingError(f"{output}: a CSV file holds one sensor; choose from {names}, or write a bag.")
+    if output.suffix.lower() == TEXT and session.beside:
+        raise RecordingError(f"{output}: a CSV file holds no topics of others; write a bag.")
     for target in _targets(output, sensors):
         _check_free(target, session.path, overwrite)
     output.parent.mkdir(parents=True, exist_ok=True)
     with TemporaryDirectory(prefix=f".{output.name}.", dir=output.parent) as folder:
         try:
-            made = _written(Path(folder) / output.name, sensors)
+            made = _written(Path(folder) / output.name, sensors, session.beside)
         except OverflowError as error:
             raise RecordingError(f"{session.path} fits into no bag: {error}; write a .csv.") from error
         for new in made:
@@ -62,14 +65,14 @@ def _check_free(target: Path, source: Path, overwrite: bool) -> None:
         raise RecordingError(f"{target} holds more than a bag, so it is not replaced: choose another name.")
 
 
-def _written(path: Path, sensors: Sequence[Sensor]) -> list[Path]:
+def _written(path: Path, sensors: Sequence[Sensor], beside: Mapping[str, FixBlock]) -> list[Path]:
     """Write under a name that nobody sees yet; return the files or the directory to move."""
     if path.suffix.lower() == TEXT:
         return write_text(path, sensors[0])
     if path.suffix.lower() != BARE:
-        write_bag(path, sensors)
+        write_bag(path, sensors, beside)
         return [path]
-    write_bag(path.with_suffix(""), sensors)
+    write_bag(path.with_suffix(""), sensors, beside)
     (file,) = path.with_suffix("").glob("*.mcap")
     return [file.rename(path)]
 

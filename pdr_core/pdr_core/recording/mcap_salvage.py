@@ -7,14 +7,14 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
-from pdr_core.recording.bag_storage import Messages
+from pdr_core.recording.storage import Storage
 
 if TYPE_CHECKING:
     from mcap.records import Chunk, McapRecord
 
 
-def salvaged_mcap(path: Path) -> tuple[dict[str, str], Messages]:
-    """Return the message types by topic, and what yields topic and CDR bytes and raises where the file breaks."""
+def salvaged_mcap(path: Path) -> Storage:
+    """Open the file as far as it goes; its messages raise where it breaks."""
     from mcap.records import Channel, Schema
 
     names: dict[int, str] = {}
@@ -25,7 +25,20 @@ def salvaged_mcap(path: Path) -> tuple[dict[str, str], Messages]:
                 names[record.id] = record.name
             elif isinstance(record, Channel):
                 topics[record.topic] = names.get(record.schema_id, "")
-    return topics, partial(_messages, path)
+    return Storage(path, topics, partial(_messages, path))
+
+
+def mcap_attachments(path: Path) -> dict[str, bytes]:
+    """Return the files within an MCAP file by name, as far as it goes; of one name the last."""
+    from mcap.records import Attachment
+    from mcap.stream_reader import StreamReader
+
+    found: dict[str, bytes] = {}
+    with path.open("rb") as file, suppress(Exception):  # the damage is told when the messages are read
+        for record in StreamReader(file, emit_chunks=True, record_size_limit=path.stat().st_size).records:
+            if isinstance(record, Attachment):
+                found[record.name] = record.data
+    return found
 
 
 def _messages(path: Path, topics: Collection[str]) -> Iterator[tuple[str, bytes]]:

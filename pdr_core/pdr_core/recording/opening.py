@@ -26,6 +26,8 @@ def open_recording(path: Path | str, column_map: Path | None = None) -> Session:
 def _opened(path: Path, column_map: Path | None) -> Session:
     if not path.exists():
         raise RecordingError(f"{path} does not exist: check the path.")
+    if column_map and not column_map.exists():  # asked of bags too, which need none
+        raise RecordingError(f"column map {column_map} cannot be read: it does not exist.")
     if path.is_file() and path.stat().st_size == 0:
         raise RecordingError(f"{path} is empty: record it again, or copy it again from where it came.")
     suffix = path.suffix.lower()

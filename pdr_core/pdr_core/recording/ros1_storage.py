@@ -3,14 +3,14 @@
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
-from pdr_core.recording.bag_storage import Messages
 from pdr_core.recording.session import RecordingError
+from pdr_core.recording.storage import Storage
 
 SUFFIX = ".bag"
 
 
-def ros1_messages(path: Path) -> tuple[dict[str, str], Messages]:
-    """Return the message types by topic, and what yields topic and CDR bytes; RecordingError without an index."""
+def ros1_storage(path: Path) -> Storage:
+    """Open the file by its index; RecordingError without one."""
     from rosbags.rosbag1 import Reader, ReaderError
     from rosbags.typesys import Stores, get_typestore
 
@@ -23,6 +23,6 @@ def ros1_messages(path: Path) -> tuple[dict[str, str], Messages]:
 
     try:
         with Reader(path) as reader:
-            return {c.topic: c.msgtype for c in reader.connections}, messages
+            return Storage(path, {c.topic: c.msgtype for c in reader.connections}, messages)
     except ReaderError as error:
         raise RecordingError(f"{path} is no whole ROS 1 bag ({error}): repair it with `rosbag reindex`.") from error

@@ -1,12 +1,21 @@
 """What an opened recording is: sensors that can be read in pieces, and notices that grow while they are read."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
-from pdr_core.records import ImuBlock, Level, Notice, Truth
+from pdr_core.records import ImuBlock, Level, Notice, Stamps, Truth
+from pdr_core.records_external import FixBlock
 
 DEFAULT_PIECE = 65536
+
+
+class Arrivals(NamedTuple):
+    """Somebody else's fixes in the order of the file."""
+
+    fixes: FixBlock
+    after_samples: Stamps  # (n,) so many samples of the sensor stood before each
 
 
 class RecordingError(Exception):
@@ -35,6 +44,8 @@ class Session:
     format: str
     sensors: dict[str, Sensor]
     notices: list[Notice] = field(default_factory=list)
+    beside: Mapping[str, FixBlock] = field(default_factory=dict)  # somebody else's fixes by topic, to be written too
+    arrivals: Callable[[str, str], Arrivals] | None = None  # of a sensor and a topic of fixes; None: it has no topics
 
 
 def put_warning(notices: list[Notice], kind: str, text: str, count: int, first_stamp_ns: int) -> None:

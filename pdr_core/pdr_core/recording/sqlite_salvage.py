@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from pdr_core.recording.bag_storage import Messages
+from pdr_core.recording.storage import Storage
 
 if TYPE_CHECKING:
     from apsw import VFS, Connection
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 WHOLE_PAGES = "pdr-whole-pages"
 
 
-def salvaged_sqlite(path: Path) -> tuple[dict[str, str], Messages]:
-    """Return the message types by topic, and what yields topic and CDR bytes and raises where the file breaks."""
+def salvaged_sqlite(path: Path) -> Storage:
+    """Open the file as far as it goes; its messages raise where it breaks."""
     topics: dict[str, str] = {}
     with suppress(Exception), closing(_connected(path)) as database:  # the damage is told when the messages are read
         topics.update(database.execute("SELECT name, type FROM topics"))
-    return topics, partial(_messages, path)
+    return Storage(path, topics, partial(_messages, path))
 
 
 def ends_within_page(path: Path) -> bool:

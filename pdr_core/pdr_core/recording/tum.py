@@ -5,9 +5,11 @@ from typing import NamedTuple, TextIO
 
 import numpy as np
 
+from pdr_core.maths.quaternion import multiply
 from pdr_core.recording.session import RecordingError
 from pdr_core.recording.stamps import stamp_ns_from_text, text_from_stamp_ns
 from pdr_core.records import Floats, Stamps
+from pdr_core.records_external import ExternalFrame
 
 HEADER = "# timestamp[s] x[m] y[m] z[m] qx qy qz qw\n"
 POSE = " %.10f" * 7 + "\n"
@@ -44,6 +46,12 @@ def read_tum(path: Path) -> Trajectory:
     except (OSError, ValueError) as error:
         raise RecordingError(f"{path} is not a TUM trajectory of `t x y z qx qy qz qw` rows: {error}") from error
     return Trajectory(table["stamp_ns"], table["pose"][:, :3], table["pose"][:, 3:])
+
+
+def in_frame(trajectory: Trajectory, frame: ExternalFrame) -> Trajectory:
+    """Return a trajectory of ours in somebody else's frame, by our stamps."""
+    quats = [multiply(frame.quat_xyzw, quat) for quat in trajectory.quat_xyzw]
+    return Trajectory(trajectory.stamp_ns, frame.theirs_m(trajectory.position_m), np.array(quats).reshape(-1, 4))
 
 
 def _loaded(lines: list[str], dtype: np.dtype) -> np.ndarray:

@@ -5,14 +5,29 @@ from dataclasses import replace
 import numpy as np
 
 from pdr_core.parameter import ParameterError
-from pdr_core.simulation.foot_motion import REST_S, FootCourse
-from pdr_core.simulation.gait import RISE_M, RUN, SHUFFLE, STAIRS_DOWN, STAIRS_UP, STROLL, WALK, Gait, Stride
-from pdr_core.simulation.gui_motion import STEP_LENGTH_M, GuiCourse, Phase, steps, turn
+from pdr_core.simulation.campus import campus
+from pdr_core.simulation.foot_motion import REST_S
+from pdr_core.simulation.gait import (
+    RISE_M,
+    RUN,
+    SHUFFLE,
+    STAIRS_DOWN,
+    STAIRS_UP,
+    STATURE_M,
+    STROLL,
+    SWING,
+    WALK,
+    Gait,
+    Stride,
+)
+from pdr_core.simulation.gui_motion import STEP_LENGTH_M, GuiCourse, Phase, step, steps, turn
 from pdr_core.simulation.motion import Course
 from pdr_core.simulation.qiu_courses import LAP_M, qiu_rectangle, stair_climb, track
+from pdr_core.simulation.zhou_courses import octagon, transitions
 
 FLIGHT = 9  # strides from one floor to the next: 3.06 m
 CORNER = 3  # strides of a walked turn by 90 degrees
+CORRIDOR_CORNER, CORRIDOR_STRIDE_M = 2, 0.9  # and in a corridor: a radius of 1.2 m
 ROUND = 12  # least strides of a walked circle
 STAND_S = 2.0
 
@@ -25,6 +40,8 @@ def gui_course(name: str, length_m: float) -> Course:
         phases = steps(max(1, round(length_m / STEP_LENGTH_M)))
     elif name == "rectangle":
         phases = gui_rectangle(length_m)
+    elif name == "campus":
+        phases = [phase for pace in campus(length_m, STEP_LENGTH_M) for phase in step(pace.length_m, pace.turn_rad)]
     else:
         text = f"simulation.walk = '{name}': Gui's motion knows only level ground; set simulation.motion to smooth"
         raise ParameterError(text)
@@ -44,13 +61,37 @@ def sides(length_m: float, stride_m: float) -> tuple[int, int]:
     return long_side, max(1, round(length_m / stride_m / 2.0) - long_side)
 
 
-def foot_course(name: str, length_m: float, pace: float) -> Course:
-    """Return the smooth foot along a walk of about `length_m`, in whole strides, at `pace` times the usual speed."""
-    strides = {
+def strides(name: str, length_m: float, pace: float, stature_m: float = STATURE_M) -> list[Stride]:
+    """Return the strides of a walk of about `length_m`, in whole strides, at `pace` times the usual speed.
+
+    The walks of Zhou are as long whoever walks them; the others get longer with their strides.
+    """
+
+    def made(gait: Gait) -> Gait:
+        return gait.of_stature(stature_m).paced(pace)
+
+    zhou = {
+        "octagon": lambda: octagon(length_m, made(WALK)),
+        "octagon_run": lambda: octagon(length_m, made(RUN)),
+        "transitions": lambda: transitions(length_m, made(SWING), made(WALK), made(RUN)),
+    }
+    if name in zhou:
+        return zhou[name]()
+    return [replace(s, gait=made(s.gait)) for s in usual_strides(name, length_m)]
+
+
+def usual_strides(name: str, length_m: float) -> list[Stride]:
+    """Return the strides of a walk as a person of usual stature and speed makes them."""
+    return {
         "still": lambda _: [],
+        "campus": lambda length_m: [
+            Stride(replace(WALK, length_m=pace.length_m), turn_rad=pace.turn_rad)
+            for pace in campus(length_m, WALK.length_m)
+        ],
         "straight": lambda length_m: ahead(length_m, WALK),
         "rectangle": rectangle,
         "curve": circle,
+        "corridor": corridor,
         "stairs": stairs,
         "run": lambda length_m: ahead(length_m, RUN),
         "mixed": mixed,
@@ -58,7 +99,6 @@ def foot_course(name: str, length_m: float, pace: float) -> Course:
         "track": lambda length_m: track([round(LAP_M / WALK.length_m)] * max(1, round(length_m / LAP_M))),
         "stair_climb": lambda length_m: stair_climb(ahead(length_m / 2.0, WALK)),
     }[name](length_m)
-    return FootCourse([replace(s, gait=s.gait.paced(pace)) for s in strides])
 
 
 def ahead(length_m: float, gait: Gait) -> list[Stride]:
@@ -66,9 +106,9 @@ def ahead(length_m: float, gait: Gait) -> list[Stride]:
     return [Stride(gait)] * max(1, round(length_m / gait.length_m))
 
 
-def walked_turn(angle_rad: float, gait: Gait = WALK) -> list[Stride]:
-    """Return strides along an arc, at most 30 degrees each."""
-    count = max(1, round(abs(angle_rad) * CORNER / (np.pi / 2.0)))
+def walked_turn(angle_rad: float, gait: Gait = WALK, corner: int = CORNER) -> list[Stride]:
+    """Return strides along an arc, `corner` of them for 90 degrees."""
+    count = max(1, round(abs(angle_rad) * corner / (np.pi / 2.0)))
     return [Stride(gait, turn_rad=angle_rad / count)] * count
 
 
@@ -83,6 +123,18 @@ def circle(length_m: float) -> list[Stride]:
     """Return one turn to the left along a circle, which closes."""
     count = max(ROUND, round(length_m / WALK.length_m))
     return [Stride(WALK, turn_rad=2.0 * np.pi / count)] * count
+
+
+def corridor(length_m: float) -> list[Stride]:
+    """Return three long parts and two short ones between them: left, right, right and left again.
+
+    The corners are tight, as corridors have them. The long parts are the odd ones; the walk does not close.
+    """
+    narrow = replace(WALK, length_m=CORRIDOR_STRIDE_M)
+    corners = [walked_turn(angle, narrow, CORRIDOR_CORNER) for angle in np.radians([90.0, -90.0, -90.0, 90.0])]
+    straight_m = max(0.0, length_m - 4 * CORRIDOR_CORNER * CORRIDOR_STRIDE_M)
+    parts = [ahead(straight_m * share, WALK) for share in (0.25, 0.125, 0.25, 0.125, 0.25)]
+    return [s for part, corner in zip(parts, [*corners, []], strict=True) for s in part + corner]
 
 
 def stairs(length_m: float) -> list[Stride]:

@@ -25,7 +25,7 @@ TURN_S = 0.5  # t_c
 
 @dataclass(frozen=True)
 class Phase:
-    """A piece of the motion: a stance, a swing forward or a turn on the spot."""
+    """A piece of the motion: a stance, a swing forward, a turn on the spot, or both at once: a swing along an arc."""
 
     duration_s: float
     forward_m: float = 0.0
@@ -39,7 +39,12 @@ class Phase:
 
 def steps(count: int, length_m: float = STEP_LENGTH_M) -> list[Phase]:
     """Return the phases of a straight walk."""
-    return [Phase(SWING_S, forward_m=length_m), Phase(STANCE_S)] * count
+    return step(length_m) * count
+
+
+def step(length_m: float, turn_rad: float = 0.0) -> list[Phase]:
+    """Return the phases of one step; with a turn it is walked along an arc, and `length_m` is its chord."""
+    return [Phase(SWING_S, forward_m=length_m, turn_rad=turn_rad), Phase(STANCE_S)]
 
 
 def turn(angle_rad: float) -> list[Phase]:
@@ -57,7 +62,8 @@ class GuiCourse:
         self._turn_rad = np.array([p.turn_rad for p in phases])
         self._yaw_rad = np.cumsum(self._turn_rad) - self._turn_rad
         forward_m = np.array([p.forward_m for p in phases])
-        self._stride_m = forward_m[:, None] * np.column_stack([np.cos(self._yaw_rad), np.sin(self._yaw_rad)])
+        chord_rad = self._yaw_rad + 0.5 * self._turn_rad
+        self._stride_m = forward_m[:, None] * np.column_stack([np.cos(chord_rad), np.sin(chord_rad)])
         self._place_m = np.cumsum(self._stride_m, axis=0) - self._stride_m
         self._swing = (forward_m != 0.0).astype(float)
         self.duration_s = float(self._starts_s[-1])

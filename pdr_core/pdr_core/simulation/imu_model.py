@@ -6,12 +6,15 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pdr_core.records import Floats, ImuBlock, Stamps, inertial_block
+from pdr_core.simulation.instability import scales, wandering
 from pdr_core.simulation.magnetometer import Magnetometer
 from pdr_core.simulation.motion import Motion
 from pdr_core.simulation.response import OVERSAMPLED_HZ, Response, answer
 
 EARTH_RATE_RADPS = 7.292115e-5  # of WGS 84
 BIASES, GYRO_AXES, ACCEL_AXES = 1, 4, 5  # what is drawn from a seed beside the noise, each from a stream of its own
+INSTABILITY = 22
+WANDER_S = 100.0  # over which a bias is forgotten: MEMS gyros show their least Allan deviation after 10 to 100 s
 Axes = tuple[float, float, float]
 
 
@@ -25,6 +28,11 @@ class SensorModel:
     accel_noise_density: float = 0.0  # [m/s^2/sqrt(Hz)]
     gyro_bias_sd_radps: float = 0.0  # of what each seed adds to the bias of each axis
     accel_bias_sd_mps2: float = 0.0
+    gyro_wander_radps: float = 0.0  # deviation of what the bias of each axis wanders by
+    accel_wander_mps2: float = 0.0
+    gyro_scale_sd: float = 0.0  # of what each axis shows too much, as a share
+    accel_scale_sd: float = 0.0
+    gyro_g_sensitivity: Axes = (0.0, 0.0, 0.0)  # [rad/s per m/s^2] of the rate each axis shows to the force along it
     gyro_range_radps: float = np.inf
     accel_range_mps2: float = np.inf
     gyro_response: Response = field(default_factory=Response)
@@ -70,9 +78,14 @@ def earth_in_foot(motion: Motion, latitude_rad: float) -> Floats:
 def answered(
     gyro_radps: Floats, accel_mps2: Floats, rate_hz: float, model: SensorModel, seed: int
 ) -> tuple[Floats, Floats]:
-    """Return what the axes of the sensor show of true rates and forces, (n, 3) each, that follow at `rate_hz`."""
+    """Return what the axes of the sensor show of true rates and forces, (n, 3) each, that follow at `rate_hz`.
+
+    Forces bend a gyro too: the diagonal of the matrix of Bancroft and Lachapelle (2012), Estimating MEMS gyroscope
+    g-sensitivity errors in foot mounted navigation. A rest shows it as a bias; in a stride the mean force is another.
+    """
     rngs = [np.random.default_rng([seed, stream]) for stream in (GYRO_AXES, ACCEL_AXES)]
-    gyro = answer(gyro_radps, rate_hz, model.gyro_response, model.gyro_range_radps, rngs[0])
+    felt_radps = gyro_radps + np.array(model.gyro_g_sensitivity) * accel_mps2
+    gyro = answer(felt_radps, rate_hz, model.gyro_response, model.gyro_range_radps, rngs[0])
     return gyro, answer(accel_mps2, rate_hz, model.accel_response, model.accel_range_mps2, rngs[1])
 
 
@@ -82,8 +95,20 @@ def sensed(
     """Return what the sensor gives for the true rates and forces (n, 3) along its own axes: bias, noise, then range."""
     noise = np.random.default_rng(seed).standard_normal((2, len(stamp_ns), 3)) * np.sqrt(rate_hz)
     gyro_bias, accel_bias = model.biases(seed)
-    gyro = gyro_radps + gyro_bias + model.gyro_noise_density * noise[0]
-    accel = accel_mps2 + accel_bias + model.accel_noise_density * noise[1]
+    gyro, accel = unstable(gyro_radps, accel_mps2, rate_hz, model, seed)
+    gyro = gyro + gyro_bias + model.gyro_noise_density * noise[0]
+    accel = accel + accel_bias + model.accel_noise_density * noise[1]
     gyro = np.clip(gyro, -model.gyro_range_radps, model.gyro_range_radps)
     accel = np.clip(accel, -model.accel_range_mps2, model.accel_range_mps2)
     return inertial_block(stamp_ns, gyro, accel, np.zeros(len(stamp_ns)), np.zeros(len(stamp_ns)))
+
+
+def unstable(
+    gyro_radps: Floats, accel_mps2: Floats, rate_hz: float, model: SensorModel, seed: int
+) -> tuple[Floats, Floats]:
+    """Return rates and forces, (n, 3) each, with what sensitivities are off and biases wander."""
+    rng = np.random.default_rng([seed, INSTABILITY])
+    shown = gyro_radps * scales(model.gyro_scale_sd, rng), accel_mps2 * scales(model.accel_scale_sd, rng)
+    sds = model.gyro_wander_radps, model.accel_wander_mps2
+    gyro, accel = (s + wandering(len(s), rate_hz, sd, WANDER_S, rng) for s, sd in zip(shown, sds, strict=True))
+    return gyro, accel

@@ -58,25 +58,25 @@ def followed(path: Course, params: SimulationParams, sensor: SensorModel, start_
     return Followed(often, rate_hz, stamp_ns, time_s, path.at(time_s), path.strikes_s)
 
 
-def inertial(f: Followed, params: SimulationParams, place: PlaceParams, sensor: SensorModel) -> ImuBlock:
-    """Return the samples of gyro and accelerometer."""
+def inertial(f: Followed, params: SimulationParams, place: PlaceParams, sensor: SensorModel, seed: int) -> ImuBlock:
+    """Return the samples of gyro and accelerometer; the seed is the sensor's."""
     gyro, accel = felt(params, place, f.stamp_ns, f.motion)
     if params.shock_mps2 > 0.0:
-        accel = accel + shocks_mps2(f.time_s, f.strikes_s, params.shock_mps2, params.seed)
+        accel = accel + shocks_mps2(f.time_s, f.strikes_s, params.shock_mps2, seed)
     gyro, accel = in_sensor_axes(params, gyro), in_sensor_axes(params, accel)
-    gyro, accel = answered(gyro, accel, f.rate_hz, sensor, params.seed)
+    gyro, accel = answered(gyro, accel, f.rate_hz, sensor, seed)
     each = slice(None, None, f.often)
-    return sensed(f.stamp_ns[each], gyro[each], accel[each], params.sample_rate_hz, sensor, params.seed)
+    return sensed(f.stamp_ns[each], gyro[each], accel[each], params.sample_rate_hz, sensor, seed)
 
 
-def magnetic(f: Followed, params: SimulationParams, sensor: SensorModel, imu: ImuBlock) -> ImuBlock:
-    """Return the samples with the field."""
+def magnetic(f: Followed, params: SimulationParams, sensor: SensorModel, seed: int, imu: ImuBlock) -> ImuBlock:
+    """Return the samples with the field; the seed is the sensor's, that of the parameters the building's."""
     world = field_tesla(params, f.time_s, f.motion.position_m)
     true = in_sensor_axes(params, Rotation.from_quat(f.motion.quat_xyzw).inv().apply(world))
-    shown = about_the_sensor(true, f.rate_hz, sensor.magnetometer, params.seed)
+    shown = about_the_sensor(true, f.rate_hz, sensor.magnetometer, seed)
     each = slice(None, None, f.often)
     measured = at_rate(f.time_s[each], params.magnetometer_rate_hz)
-    return with_field(imu, shown[each], sensor.magnetometer, measured, params.seed)
+    return with_field(imu, shown[each], sensor.magnetometer, measured, seed)
 
 
 def felt(params: SimulationParams, place: PlaceParams, stamp_ns: Stamps, motion: Motion) -> tuple[Floats, Floats]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pdr_core.conventions import NANOSECONDS, NO_STAMP, nanoseconds
+from pdr_core.maths.motion_switch import MotionRule, MotionSwitch
 from pdr_core.recording.decimation import ThinnedStream, kept_of
 from pdr_core.records import ImuBlock
 from pdr_nodes.devices.source import Source
@@ -28,6 +29,7 @@ class Player:
         self._changes: list[Change] = []  # still to come, the earliest first
         self._keep_every = 1
         self._gyro_on = True
+        self._motion: MotionSwitch | None = None  # the sensor switches by itself
         self._settled_ns = NO_STAMP
         self.taken = 0
         self.interval_s = 0.0
@@ -53,18 +55,26 @@ class Player:
         sample = self._samples.take(self._keep_every)
         if self.next is not None and self.interval_s == 0.0:
             self.interval_s = (self.next_ns - now_ns) / NANOSECONDS
-        measures = self._gyro_on and now_ns >= self._settled_ns
-        return sample if measures else without_gyro(sample)
+        return sample if self._measures(sample) else without_gyro(sample)
 
     def set_gyro_power(self, on: bool, not_before_ns: int = NO_STAMP) -> int:
         """Switch the gyro; after being switched on it needs its settling time. Return the stamp [ns] it holds from."""
 
         def switch(at_ns: int) -> None:
+            self._motion = None
             if on and not self._gyro_on:
                 self._settled_ns = at_ns + nanoseconds(self.settling_s)
             self._gyro_on = on
 
         return self._plan(switch, not_before_ns)
+
+    def set_gyro_on_motion(self, rule: MotionRule, not_before_ns: int = NO_STAMP) -> int:
+        """Let the sensor switch its gyro by itself. Return the stamp [ns] it holds from."""
+
+        def leave(_at_ns: int) -> None:
+            self._motion = MotionSwitch(rule, self._gyro_on)
+
+        return self._plan(leave, not_before_ns)
 
     def set_sample_rate(self, rate_hz: float, not_before_ns: int = NO_STAMP) -> tuple[float, int]:
         """Keep every k-th sample, filtered, as near to the rate as possible.
@@ -78,6 +88,18 @@ class Player:
             self._keep_every = keep_every
 
         return native_hz / keep_every, self._plan(thin, not_before_ns)
+
+    def _measures(self, sample: ImuBlock) -> bool:
+        """Return whether the gyro's rate can be trusted now."""
+        settled = int(sample.stamp_ns[0]) >= self._settled_ns
+        if self._motion is None:
+            return self._gyro_on and settled
+        (powered,), (measured,) = self._motion.run(sample.stamp_ns, sample.accel_mps2)
+        if powered and not self._gyro_on:
+            self._settled_ns = int(sample.stamp_ns[0]) + self._motion.rule.settle_ns
+            settled = False
+        self._gyro_on = bool(powered)
+        return bool(measured) and settled
 
     def _plan(self, happen: Callable[[int], None], not_before_ns: int) -> int:
         """Let something happen from a stamp on, but not in the past; what was asked for first happens first."""

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from filter_cases import error_of, injected, judged, random_state, standing
 
-from pdr_core.eskf import ZuptFilter, heading
+from pdr_core.eskf import ZuptFilter, heading, position
 from pdr_core.eskf.updates import correct_heading
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import FootInertial
-from pdr_core.records import HeadingObservation, HeadingSource, joined, length, part
+from pdr_core.records import HeadingObservation, HeadingSource, PositionError, joined, length, part
 from pdr_core.simulation import simulated_walk
 from pdr_core.stance import StanceDetection
 
@@ -76,6 +76,12 @@ def test_samples_wait_at_the_due_stamp_and_nothing_is_lost():
     assert more.stamp_ns[0] == JUDGED.imu.stamp_ns[due]
 
 
+def test_what_is_given_out_does_not_keep_the_room_for_what_waits():
+    nav, _ = asking().run(JUDGED)
+    assert length(nav) < length(JUDGED)
+    assert all(column.base is None for column in nav)
+
+
 def test_empty_answers_change_nothing():
     plain, _ = ZuptFilter(Params().filter, Params().place).run(JUDGED)
     _, nav, _ = walked(empty)
@@ -110,6 +116,47 @@ def test_the_pipeline_answers_as_the_nodes_do():
     assert length(joined([plain.run(WALK.imu).nav, plain.finish().nav])) == length(WALK.imu)
 
 
+def test_answers_from_outside_give_what_answers_from_inside_do():
+    chain, other = FootInertial(ASKING, heading=observed), FootInertial(ASKING, heading=None)
+    inside = [chain.run(WALK.imu), chain.finish()]
+    outside = [other.run(part(WALK.imu, i, i + 50)) for i in range(0, length(WALK.imu), 50)] + [other.finish()]
+    asked = [step for output in outside for step in output.steps]
+    for step in asked:
+        outside.append(other.answer(observed(step)))
+        asked += outside[-1].steps
+    for name in ("judged", "nav"):
+        whole, pieces = (joined([getattr(o, name) for o in made]) for made in (inside, outside))
+        for a, b in zip(whole if name == "nav" else whole.imu, pieces if name == "nav" else pieces.imu, strict=True):
+            np.testing.assert_array_equal(a, b)
+    ends = [step.stamp_ns for output in inside for step in output.steps]
+    assert [step.stamp_ns for output in outside for step in output.steps] == ends
+
+
+def test_a_place_that_is_off_moves_and_its_noise_decides_how_far():
+    off_m = np.array([0.3, -0.2, 0.1])
+
+    def moved_m(sd_m):
+        def answer(step):
+            place = PositionError(off_m, np.eye(3) * sd_m**2)
+            return replace(empty(step), position=place if step.index == 2 else None)
+
+        (_, nav, steps), (_, plain, _) = walked(answer), walked(empty)
+        after = int(np.searchsorted(nav.stamp_ns, steps[1].answer_due_ns))
+        np.testing.assert_array_equal(nav.position_m[:after], plain.position_m[:after])
+        assert np.linalg.eigvalsh(nav.pose_covariance[after])[0] > -1e-12
+        return nav.position_m[after] - plain.position_m[after]
+
+    np.testing.assert_allclose(moved_m(1e-6), -off_m, atol=0.005)  # one interval with the velocity that it corrects
+    assert np.linalg.norm(moved_m(10.0)) < 1e-3
+
+
+def test_the_error_of_a_place_is_truth_minus_estimate():
+    state = random_state(np.random.default_rng(4))
+    truth = injected(state, error := np.random.default_rng(5).normal(0.0, 1e-6, 15))
+    given_m = state.position_m - truth.position_m
+    np.testing.assert_allclose(position.H @ error, position.residual(given_m), atol=1e-12)
+
+
 def test_giving_up_goes_on_and_says_so():
     f = asking()
     f.run(JUDGED)
@@ -137,6 +184,8 @@ def test_giving_one_answer_up_leaves_the_others_their_time():
         ({"yaw_error_sd_rad": np.inf}, "heading_unusable"),
         ({"yaw_error_sd_rad": 0.0}, "heading_unusable"),
         ({"applies_from_ns": 5}, "heading_unusable"),
+        ({"position": PositionError(np.array([0.0, np.nan, 0.0]), np.eye(3))}, "heading_unusable"),
+        ({"position": PositionError(np.zeros(3), np.diag([1.0, -1.0, 1.0]))}, "heading_unusable"),
     ],
 )
 def test_a_wrong_answer_is_named_and_turns_nothing(wrong, kind):

@@ -203,6 +203,30 @@ def test_a_reset_starts_anew_at_the_pose(keep_biases):
     np.testing.assert_allclose(f.health.accel_bias_sd_mps2, sd if keep_biases else 0.02)
 
 
+@pytest.mark.parametrize("keep_biases", [True, False])
+def test_a_reset_that_keeps_the_biases_levels_without_them_and_keeps_the_gravity(keep_biases):
+    f = fresh()
+    f.run(part(JUDGED, 0, 900))
+    f.state.accel_bias_mps2[:] = bias = np.array([0.3, -0.2, 0.0])
+    gravity_mps2 = f.health.gravity_mps2
+    f.reset(start(f, pose(yaw=0.0), keep_biases))
+    pushed = judged(standing(0.05), np.ones(10, bool))
+    pushed.imu.accel_mps2[:] += bias + np.array([0.0, 0.0, 0.2])
+    f.run(pushed)
+    tilt_rad = np.arccos(Rotation.from_quat(f.state.quat_xyzw).as_matrix()[2, 2])
+    assert tilt_rad == pytest.approx(0.0 if keep_biases else 0.036, abs=1e-3)
+    assert (f.health.gravity_mps2 == gravity_mps2) is keep_biases
+
+
+def test_a_heading_that_nobody_asked_for_turns_the_track():
+    f = fresh()
+    f.run(part(JUDGED, 0, 900))
+    yaw_rad, sd_rad = quaternion.yaw_rad(f.state.quat_xyzw), f.health.yaw_sd_rad
+    f.take_heading(0.01, sd_rad)
+    assert quaternion.yaw_rad(f.state.quat_xyzw) == pytest.approx(yaw_rad - 0.005, abs=1e-4)
+    assert f.health.yaw_sd_rad == pytest.approx(sd_rad / np.sqrt(2.0), rel=1e-3)
+
+
 def test_a_reset_that_forgets_the_biases_forgets_those_kept_before():
     f = fresh()
     f.run(part(JUDGED, 0, 900))

@@ -2,11 +2,12 @@ import copy
 
 import numpy as np
 import pytest
+from intake_cases import only, taken
 from scipy.spatial.transform import Rotation
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import IntakeParams
-from pdr_core.records import Level, inertial_block, joined, length, part
+from pdr_core.records import Level, inertial_block, length, part
 
 MS, BEGIN_NS = 1_000_000, 10**18
 
@@ -14,16 +15,6 @@ MS, BEGIN_NS = 1_000_000, 10**18
 def still(n=20, period_ms=10, begin_ns=BEGIN_NS):
     stamps = begin_ns + np.arange(n, dtype=np.int64) * period_ms * MS
     return inertial_block(stamps, np.full((n, 3), 0.01), np.tile([0.0, 0.0, 9.81], (n, 1)), np.zeros(n), np.zeros(n))
-
-
-def taken(imu, **params):
-    intake = Ingestion(IntakeParams(**params))
-    return joined([intake.run(imu), intake.finish()]), {n.kind: n for n in intake.notices}
-
-
-def only(notices, kind):
-    assert list(notices) == [kind]
-    return notices[kind]
 
 
 def test_good_samples_pass_unchanged_and_without_a_notice():

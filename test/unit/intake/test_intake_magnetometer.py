@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from intake_cases import only, taken
 from scipy.spatial.transform import Rotation
 
 from pdr_core.intake import Ingestion
@@ -23,16 +24,6 @@ def turning(n=400, period_ms=10, rate_radps=RATE_RADPS, scale=1.0, noise=1e-7, s
     field += noise * np.random.default_rng(seed).standard_normal((n, 3))
     rate, force = np.tile(np.asarray(rate_radps, float), (n, 1)), attitude.inv().apply([0.0, 0.0, 9.81])
     return ImuBlock(stamps, rate, force, np.zeros(n), np.zeros(n), field * scale, np.zeros(n))
-
-
-def taken(imu, **params):
-    intake = Ingestion(IntakeParams(**params))
-    return joined([intake.run(imu), intake.finish()]), {n.kind: n for n in intake.notices}
-
-
-def only(notices, kind):
-    assert list(notices) == [kind]
-    return notices[kind]
 
 
 def without_field(imu):

@@ -127,3 +127,30 @@ def test_the_covariance_of_the_heading_is_honest_in_a_clean_field():
         sd = np.degrees(np.sqrt(nav.pose_covariance[-1, 5, 5]))
         errors.append(heading_error_deg(simulated, nav)[-1] / sd)
     assert np.abs(errors).max() < 2.5
+
+
+@pytest.mark.parametrize("magnetic_east_deg", [-150.0, -40.0, 20.0, 110.0])
+def test_a_walk_that_starts_by_the_compass_is_turned_to_magnetic_east(magnetic_east_deg):
+    """The foot starts along the world's x; where north is turned clockwise by an angle, it starts at that yaw."""
+    params = SimulationParams(
+        motion="smooth", walk_length_m=60.0, magnetometer=True, magnetometer_rate_hz=50.0,
+        field_declination_deg=magnetic_east_deg,
+    )  # fmt: skip
+    simulated = simulated_walk(params)
+    told = changed(Params(), "place", field_norm_tesla=params.field_norm_tesla, field_dip_deg=params.field_dip_deg)
+    nav, chain = estimated(simulated.imu, changed(told, "filter", initial_yaw_source="magnetometer"))
+    turned = (heading_error_deg(simulated, nav) - magnetic_east_deg + 180.0) % 360.0 - 180.0
+    since_s = (nav.stamp_ns - nav.stamp_ns[0]) * 1e-9
+    assert abs(turned[since_s > 1.1]).max() < 2.0
+    assert np.degrees(np.sqrt(nav.pose_covariance[since_s > 1.1, 5, 5])).max() < 6.0
+    assert "initial_yaw" in {n.kind for n in chain.notices}
+    assert use_of(chain) is FieldUse.HEADING  # the field where the walk goes agrees with that of the start
+    assert chain.state.north_rad == pytest.approx(np.pi / 2, abs=0.01)
+
+
+def test_iron_at_the_start_is_refused_and_a_walk_in_it_starts_as_it_is_told():
+    simulated = simulated_walk(SimulationParams(motion="smooth", magnetometer=True, indoor_field=0.25, seed=3))
+    told = changed(Params(), "place", field_norm_tesla=50e-6, field_dip_deg=60.0)
+    nav, chain = estimated(simulated.imu, changed(told, "filter", initial_yaw_source="magnetometer"))
+    assert "initial_yaw_given" in {n.kind for n in chain.notices}
+    assert abs(heading_error_deg(simulated, nav)).max() < 5.0

@@ -95,6 +95,18 @@ def test_the_whole_chain_walks_a_consumer_sensor_home(walk):
     assert chain.notices == []
 
 
+@pytest.mark.parametrize(("chosen", "share"), [({"gravity_source": "place"}, 1.0), ({}, 1.0033)])
+def test_a_bias_along_the_vertical_is_no_gravity(chosen, share):
+    """The 10 mg that a data sheet allows: at rest they look like gravity, in a swing the foot is tipped."""
+    bias = SensorModel(accel_bias_mps2=(0.0, 0.0, 0.1))
+    sim = simulated_walk(SimulationParams(motion="smooth", walk="straight", walk_length_m=42.0), model=bias)
+    chain = FootInertial(changed(Params(), "filter", **chosen))
+    steps = [*chain.run(sim.imu).steps, *chain.finish().steps]
+    found_m = np.linalg.norm([step.displacement_m[:2] for step in steps], axis=1)
+    assert len(steps) == 30
+    assert np.mean(found_m) == pytest.approx(1.4 * share, rel=5e-4)
+
+
 def normalised_errors(seed, zero_velocity_sd=0.005, rate_hz=100.0):
     """Walk 12 m with a sensor drawn from the filter's own assumptions; return NEES of velocity and tilt, (ends, 2)."""
     rng = np.random.default_rng(seed)

@@ -8,7 +8,7 @@ from small_bags import IMU, MAG, imu_cdr, imu_messages, mag_cdr, stamp, write_ba
 from pdr_core.recording import open_recording
 from pdr_core.recording.bag import field_topics
 from pdr_core.recording.bag_messages import AT_ONCE, BagReader
-from pdr_core.recording.bag_storage import Storage
+from pdr_core.recording.storage import Storage
 from pdr_core.records import joined
 
 COUNT = 600

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 import yaml
+from small_bags import imu_messages, write_bag
 
 from pdr_core.recording import RecordingError, open_recording
 from pdr_core.recording.column_map_yaml import column_map_from_text, known_maps
@@ -127,8 +128,9 @@ def test_a_map_that_does_not_fit_names_the_column_and_those_there_are(tmp_path):
 
 
 def test_a_missing_map_is_an_error(tmp_path):
-    with pytest.raises(RecordingError, match=r"column map .*none.yaml cannot be read"):
-        open_recording(walk(tmp_path), tmp_path / "none.yaml")
+    for path in (walk(tmp_path), write_bag(tmp_path / "bag", imu_messages(2), "mcap")):  # a bag needs none
+        with pytest.raises(RecordingError, match=r"column map .*none.yaml cannot be read"):
+            open_recording(path, tmp_path / "none.yaml")
 
 
 def test_columns_without_a_header_go_by_number(tmp_path):

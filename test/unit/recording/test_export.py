@@ -250,7 +250,9 @@ def test_what_was_not_measured_is_still_not_measured():
 
 def test_what_is_written_is_what_ros_would_write():
     samples = noise(2)._replace(accel_sd_mps2=np.array([0.0, 0.5]))
-    for i, cdr in enumerate(cdr_from_imu_block(samples, "a frame")):
+    written = cdr_from_imu_block(samples, "a frame")
+    assert len(written) == 2
+    for i, cdr in enumerate(written):
         message = ROS2.deserialize_cdr(cdr, IMU)
         assert (message.header.frame_id, message.orientation_covariance[0]) == ("a frame", -1.0)
         assert message.linear_acceleration.y == samples.accel_mps2[i, 1]
@@ -264,7 +266,9 @@ def test_what_is_written_is_what_ros_would_write():
 def test_the_field_is_written_as_ros_would_write_it():
     samples = with_field(noise(3), np.array([True, True, False]), np.array([0.0, 2e-7, 0.0]))
     fields = FieldBlock(samples.stamp_ns, samples.field_tesla, samples.field_sd_tesla)
-    for i, cdr in enumerate(cdr_from_field_block(fields, "a frame")):
+    written = cdr_from_field_block(fields, "a frame")
+    assert len(written) == 3
+    for i, cdr in enumerate(written):
         message = ROS2.deserialize_cdr(cdr, MAG)
         assert (message.header.frame_id, message.magnetic_field.z) == ("a frame", samples.field_tesla[i, 2])
         diagonal = message.magnetic_field_covariance[[0, 4, 8]].tolist()

@@ -9,16 +9,8 @@ from hypothesis import strategies as st
 from scipy.signal import firwin, freqz
 
 from pdr_core.conventions import GAP_NS
-from pdr_core.recording.decimation import (
-    Decimation,
-    ThinnedStream,
-    decimated,
-    kept_of,
-    rate_of_hz,
-    reached,
-    thinned,
-    weights,
-)
+from pdr_core.maths.thinning import kept_of, reached, thinned, weights
+from pdr_core.recording.decimation import Decimation, ThinnedStream, decimated, rate_of_hz
 from pdr_core.recording.session import Sensor
 from pdr_core.records import inertial_block, joined, length, part
 

@@ -6,7 +6,8 @@ from hypothesis.extra.numpy import arrays
 
 from pdr_core.recording import RecordingError
 from pdr_core.recording.stamps import stamp_ns_from_text, text_from_stamp_ns
-from pdr_core.recording.tum import Trajectory, append_tum, read_tum, write_tum_header
+from pdr_core.recording.tum import Trajectory, append_tum, in_frame, read_tum, write_tum_header
+from pdr_core.records_external import ExternalFrame
 
 STAMPS = st.integers(-(2**63) + 1, 2**63 - 1)
 
@@ -63,3 +64,14 @@ def test_a_file_that_is_no_trajectory_is_an_error(tmp_path, text):
 def test_a_missing_file_is_an_error(tmp_path):
     with pytest.raises(RecordingError, match=r"none\.tum does not exist: check the path"):
         read_tum(tmp_path / "none.tum")
+
+
+def test_a_trajectory_in_another_frame_is_turned_and_shifted():
+    ours = Trajectory(
+        np.array([1, 2]), np.array([[1.0, 0.0, 0.5], [0.0, 2.0, 0.5]]), np.array([[0.0, 0.0, 0.0, 1.0]] * 2)
+    )
+    frame = ExternalFrame(np.pi / 2.0, np.array([10.0, 20.0, 1.0]), 0, np.zeros((4, 4)), np.zeros(2))
+    theirs = in_frame(ours, frame)
+    np.testing.assert_allclose(theirs.position_m, [[10.0, 21.0, 1.5], [8.0, 20.0, 1.5]])
+    np.testing.assert_allclose(theirs.quat_xyzw, [[0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)]] * 2)
+    assert len(in_frame(Trajectory(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 4))), frame).quat_xyzw) == 0

@@ -5,10 +5,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pdr_core.params import SimulationParams
+from pdr_core.simulation.courses import strides
 from pdr_core.simulation.gui_motion import GuiCourse, Phase, steps, turn
+from pdr_core.simulation.two_feet import both_feet
 from pdr_core.simulation.walk import course
 
 H = 1e-5
+CORRIDOR = SimulationParams(walk="corridor", walk_length_m=20.0)
 GUI = [Phase(0.5), *steps(2), *turn(1.3), *steps(1)]
 JOINTS = np.cumsum([0.0] + [p.duration_s for p in GUI])
 COURSES = {
@@ -17,6 +20,7 @@ COURSES = {
         f"{walk} at pace {pace}": course(SimulationParams(motion="smooth", walk=walk, walk_length_m=20.0, pace=pace))
         for walk, pace in (("rectangle", 1.0), ("curve", 1.0), ("stairs", 1.0), ("run", 2.0), ("mixed", 1.3))
     },
+    **both_feet(strides("corridor", 20.0, 1.0), CORRIDOR),
 }
 
 

@@ -1,0 +1,96 @@
+"""Keeps of a run with two feet what the result, the report and the files of the body need, in bounded memory."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+
+from pdr_bringup_scripts.book import make_folder
+from pdr_bringup_scripts.provenance import VERSION, commit
+from pdr_core.conventions import NANOSECONDS
+from pdr_core.evaluation.body_page import Way, write_body_report
+from pdr_core.evaluation.body_truth import truth_between
+from pdr_core.evaluation.result import CAUSAL, Result
+from pdr_core.evaluation.score import Scorer
+from pdr_core.params import Params, params_as_mapping
+from pdr_core.pipeline import FootOutput
+from pdr_core.recording import Sensor, Session
+from pdr_core.recording.tum import Trajectory, append_tum, write_tum_header
+from pdr_core.records import Floats, NavBlock, Notice, length
+
+FILES = "trajectory.tum, result.json, report.html"  # strides are those of feet
+
+
+class BodyBook:
+    """Takes every output once; `out` is where the files go, None: nowhere."""
+
+    def __init__(self, session: Session, feet: Sequence[Sensor], out: Path | None, stack: ExitStack) -> None:
+        self._session = session
+        self._scorer = Scorer(truth_between(feet[0].truth, feet[1].truth))
+        self._way = Way()
+        self._ways = {foot.name: Way() for foot in feet}
+        self._out = out
+        self._trajectory: TextIO | None = None
+        self._rows = 0
+        self._last_ns: int | None = None
+        self.duration_s = 0.0
+        if out:
+            make_folder(out)
+            self._trajectory = stack.enter_context((out / "trajectory.tum").open("w"))
+            write_tum_header(self._trajectory)
+
+    def keep_foot(self, foot: str, output: FootOutput) -> None:
+        """Take the next estimates of a foot."""
+        self._ways[foot].add(output.nav)
+
+    def keep(self, nav: NavBlock) -> None:
+        """Take the next estimates of the body."""
+        if not length(nav):
+            return
+        steps_ns = np.diff(nav.stamp_ns, prepend=nav.stamp_ns[0] if self._last_ns is None else self._last_ns)
+        self.duration_s += float(np.clip(steps_ns, 0, None).sum()) / NANOSECONDS
+        self._last_ns = int(nav.stamp_ns[-1])
+        self._rows += length(nav)
+        self._scorer.add(nav)
+        self._way.add(nav)
+        if self._trajectory:
+            append_tum(self._trajectory, Trajectory(nav.stamp_ns, nav.position_m, nav.quat_xyzw))
+
+    def close(
+        self,
+        pipeline: str,
+        params: Params,
+        feet: Mapping[str, Result],
+        seconds: float,
+        notices: list[Notice],
+        placed_m: Callable[[str, Floats], Floats],
+    ) -> Result:
+        """Return the result and write the files; of strides and distance the feet's mean counts."""
+        result = Result(
+            recording=str(self._session.path),
+            format=self._session.format,
+            samples=self._rows,
+            duration_s=self.duration_s,
+            pipeline=pipeline,
+            **CAUSAL._asdict(),
+            strides=round(sum(foot.strides for foot in feet.values()) / len(feet)),
+            distance_m=sum(foot.distance_m for foot in feet.values()) / len(feet),
+            end_position_m=self._scorer.end_position_m,
+            closure_2d_m=self._scorer.closure_2d_m,
+            closure_3d_m=self._scorer.closure_3d_m,
+            gait=None,
+            seconds=seconds,
+            notices=notices,
+            config=params_as_mapping(params),
+            truth=self._scorer.score([], self._scorer.start_position_m),
+            version=VERSION,
+            commit=commit(),
+        )
+        if self._out:
+            (self._out / "result.json").write_text(result.to_json() + "\n")
+            feet_m = {foot: placed_m(foot, way.position_m) for foot, way in self._ways.items()}
+            view = self._scorer.view([], self._scorer.start_position_m)
+            write_body_report(self._out / "report.html", result, self._way.position_m, feet_m, view)
+        return result

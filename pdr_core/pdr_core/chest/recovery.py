@@ -1,0 +1,109 @@
+"""What is done where samples or the tilt were lost: the walk is taken to have gone on, and its tilt is found anew.
+
+A stride that shows a knock holds it somewhere: it levels, and the next whole one levels once more. How fast somebody
+walks is remembered from the uniform steps, ahead and left of the chest, also over a rest. Before the first of them
+nothing is known of it. Then what a lost tilt t has gained since it was lost is taken back, g t s after s seconds; and
+the speed that is left over at the next rest was wrong ever since (`settle`).
+"""
+
+from pdr_core.chest.correction import level_anew
+from pdr_core.chest.rest import interrupt
+from pdr_core.chest.settings import Settings
+from pdr_core.chest.state import ChestState
+from pdr_core.chest.steps import stride_force
+from pdr_core.conventions import NO_STAMP
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.vector import Triple, scaled
+
+GAP_SPEED_SD_MPS = 0.5  # how far off a walk may be that is taken to have gone on
+UNKNOWN_SPEED_SD_MPS = 1.5  # and one that nobody has seen
+IMPOSSIBLE_MPS2 = 2.0  # over a stride: no walker's speed changes by 2 m/s in one
+TRUSTED_NS = 10_000_000_000  # a walk is taken to have gone on for so long at most
+BRIDGED_NS = 2_000_000_000  # a walk is taken to go on across a gap of so long
+
+
+@compiled
+def bridge(stamp_ns: int, dt_ns: int, state: ChestState) -> None:
+    """Cross a gap, or a clock that has jumped back: a walk goes on as it did, and its tilt is found anew."""
+    state.gaps += not state.coasting
+    state.coasting, state.level_due = True, True
+    state.level_ns = stamp_ns
+    short = 0 < dt_ns <= BRIDGED_NS
+    if state.resting:
+        start_somewhere(stamp_ns, dt_ns, short, state)
+    elif short:
+        velocity = walking_velocity(state) if state.walking else scaled(1.0, state.velocity_mps)
+        for i in range(3):
+            state.position_m[i] += velocity[i] * dt_ns * 1e-9
+            state.velocity_mps[i] = velocity[i]
+    else:
+        state.velocity_mps[:] = 0.0
+    interrupt(state)
+    state.position_sd_m += GAP_SPEED_SD_MPS * abs(dt_ns) * 1e-9
+    state.step_start_ns = NO_STAMP
+    state.feedback_radps[:] = 0.0
+
+
+@compiled
+def start_somewhere(stamp_ns: int, dt_ns: int, short: bool, state: ChestState) -> None:
+    """Take who rested, should she turn out to walk, to have begun in the middle of the gap; after a long one, now."""
+    state.even_m[:] = state.position_m
+    state.even_ns = stamp_ns - dt_ns // 2 if short else stamp_ns
+
+
+@compiled
+def walking_velocity(state: ChestState) -> Triple:
+    """Return how fast this person walks in uniform motion, where the chest points; 0 as long as nothing is known."""
+    length = max((state.yaw_before[0] ** 2 + state.yaw_before[1] ** 2) ** 0.5, 1e-9)
+    c, n = state.yaw_before[0] / length, state.yaw_before[1] / length
+    return c * state.walk_mps[0] - n * state.walk_mps[1], n * state.walk_mps[0] + c * state.walk_mps[1], 0.0
+
+
+@compiled
+def lost(s: Settings, state: ChestState) -> bool:
+    """Return whether the tilt is what is wrong: after a gap, or where nobody moves as the last stride has it."""
+    if state.s_before == 0.0 or state.since_rest <= s.start_steps:
+        return False
+    x, y, _ = stride_force(state)
+    too_fast = x**2 + y**2 > (IMPOSSIBLE_MPS2 * (state.s_before + state.step_s)) ** 2
+    return state.level_due or state.uneven >= s.steady_steps or too_fast
+
+
+@compiled
+def find_anew(stamp_ns: int, state: ChestState) -> None:
+    """Level the chest by the stride that ends, and take the walk to have gone on since it was known to."""
+    gained, stride_s = stride_force(state), state.s_before + state.step_s
+    level_anew(gained, state)
+    speed_sd_mps = GAP_SPEED_SD_MPS
+    if state.walk_mps[0] == 0.0 and state.walk_mps[1] == 0.0:
+        lost_s = (stamp_ns - state.level_ns) * 1e-9 if state.level_due else stride_s
+        take_back(scaled(1.0 / stride_s, gained), lost_s, state)
+        if state.settle_ns == NO_STAMP:
+            state.settle_ns = state.level_ns if state.level_due else stamp_ns
+        speed_sd_mps = UNKNOWN_SPEED_SD_MPS
+    else:
+        go_on_walking(stamp_ns, state)
+    state.level_due, state.level_ns = not state.level_due, stamp_ns
+    state.releveled, state.uneven = True, 0
+    state.velocity_sd_mps = max(state.velocity_sd_mps, speed_sd_mps)
+    state.levelled += 1
+    state.feedback_radps[:] = 0.0
+
+
+@compiled
+def take_back(push_mps2: Triple, lost_s: float, state: ChestState) -> None:
+    """Take back the speed that a tilt has pushed on for so long, and the way that went by it."""
+    for i in range(2):
+        state.velocity_mps[i] -= push_mps2[i] * lost_s
+        state.position_m[i] -= 0.5 * push_mps2[i] * lost_s**2
+
+
+@compiled
+def go_on_walking(stamp_ns: int, state: ChestState) -> None:
+    """Walk on as ever since the last uniform step or rest: what was solved since then was solved with a tilt."""
+    velocity = walking_velocity(state)
+    state.velocity_mps[:] = velocity
+    since_ns = stamp_ns - state.even_ns
+    if state.even_ns != NO_STAMP and 0 < since_ns < TRUSTED_NS:
+        for i in range(3):
+            state.position_m[i] = state.even_m[i] + velocity[i] * since_ns * 1e-9

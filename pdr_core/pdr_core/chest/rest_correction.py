@@ -1,0 +1,75 @@
+"""What a rest corrects (Cheng eq. 2-4): the bias of the gyro, the scale of the force, attitude and position.
+
+Eq. 2 takes gB for the mean rate of the rest, and aSF for the magnitude of the mean force. But people sway: over a rest
+of T seconds the mean rate is off by the change of their tilt over T, with the deviation sqrt(2) sway / T. So gB is the
+mean of what was known of it and what this rest shows, by their variances; before the first rest nothing was known, and
+it is eq. 2. What `rest_fit` makes of a rest knows better: it sees the sway. Between rests a bias that wanders by s and
+is forgotten after WANDER_S changes by 2 s^2 t / WANDER_S.
+
+Eq. 3 prints C_b^n where it means its transpose, and the force of a sensor whose axes point down beside one that
+measures +g upwards. Levelling is that of the foot (`maths.levelling`): forward-left-up, +g upwards. Eq. 4 holds the
+position, and the velocity is zero; the yaw is held too.
+"""
+
+import numpy as np
+
+from pdr_core.chest.ahead import chest_yaw_rad, choose
+from pdr_core.chest.rest_fit import FORCE, RATE, fitted_bias, fitted_turn, mean_of
+from pdr_core.chest.settings import Settings
+from pdr_core.chest.state import ChestState
+from pdr_core.conventions import NO_STAMP
+from pdr_core.maths.compiled import compiled
+from pdr_core.maths.levelling import levelled
+from pdr_core.maths.quaternion import from_euler, multiply
+from pdr_core.maths.vector import norm
+
+WANDER_S = 100.0  # MEMS gyros show their least Allan deviation after 10 to 100 s
+LEAST_NOISE_RADPS = 1e-5
+FIT_S = 1.2  # measured in the simulator: of a swaying person a fit over T leaves the rate sway FIT_S / T^2
+
+
+@compiled
+def correct(stamp_ns: int, s: Settings, state: ChestState) -> None:
+    """Take the bucket into the sums of the rest, and correct bias, scale and attitude by them (eq. 2, 3)."""
+    sums, b = state.rest_sums, state.bucket
+    for i in range(sums.shape[0]):
+        sums[i] += b[i]
+    weigh_bias((stamp_ns - state.rest_start_ns) * 1e-9, s, state)
+    force = mean_of(sums, FORCE)
+    state.force_scale = s.gravity_mps2 / norm(force)
+    level = levelled(np.array(force), 0.0)
+    if not state.aligned:
+        choose(level, state)
+    now = multiply(level, fitted_turn(state)) if s.sways else level
+    state.quat_xyzw[:] = multiply(from_euler(0.0, 0.0, state.held_yaw_rad - chest_yaw_rad(now, state)), now)
+    state.velocity_mps[:] = 0.0
+    state.velocity_sd_mps = 0.0
+    state.aligned = True
+
+
+@compiled
+def weigh_bias(duration_s: float, s: Settings, state: ChestState) -> None:
+    """Weigh what the rest shows of the bias against what was known before it."""
+    sums = state.rest_sums
+    shown = fitted_bias(state) if s.sways else mean_of(sums, RATE)
+    left = FIT_S / duration_s if s.sways else np.sqrt(2.0)
+    seen = (left * s.sway_sd_rad / duration_s) ** 2 + LEAST_NOISE_RADPS**2
+    gain = state.rest_bias_variance / (state.rest_bias_variance + seen)
+    for i in range(3):
+        state.gyro_bias_radps[i] = state.rest_bias_radps[i] + gain * (shown[i] - state.rest_bias_radps[i])
+    state.bias_variance = (1.0 - gain) * state.rest_bias_variance
+
+
+@compiled
+def forget_slowly(dt_s: float, s: Settings, state: ChestState) -> None:
+    """Trust the bias less as time passes."""
+    state.bias_variance += 2.0 * s.bias_wander_radps**2 * dt_s / WANDER_S
+
+
+@compiled
+def settle(stamp_ns: int, state: ChestState) -> None:
+    """Take back the way that an unknown speed went: what is left of it now is what it was off by all the time."""
+    if state.settle_ns != NO_STAMP:
+        for i in range(2):
+            state.position_m[i] -= state.velocity_mps[i] * max(stamp_ns - state.settle_ns, 0) * 1e-9
+    state.settle_ns = NO_STAMP

@@ -1,0 +1,57 @@
+"""Somebody else's positions beside the samples of a sensor in a bag, and when they came."""
+
+from typing import Any
+
+import numpy as np
+
+from pdr_core.conventions import NANOSECONDS
+from pdr_core.recording.bag_messages import BagReader
+from pdr_core.recording.session import Arrivals, RecordingError
+from pdr_core.records_external import FixBlock, yaw_or_none
+
+WITH_COVARIANCE = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseWithCovarianceStamped"}
+KINDS = WITH_COVARIANCE | {"geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"}
+
+
+def arrivals(bag: BagReader, imu_topic: str, topic: str) -> Arrivals:
+    """Return the fixes of a topic beside those of an Imu topic; RecordingError if it holds no positions."""
+    from rosbags.typesys import Stores, get_typestore
+
+    topics = bag.topics()
+    if topics.get(topic) not in KINDS:
+        known = ", ".join(sorted(name for name, kind in topics.items() if kind in KINDS)) or "none"
+        raise RecordingError(f"--external {topic}: the recording holds no positions of that name; it has: {known}.")
+    decode, rows, counts, samples, damaged = get_typestore(Stores.ROS2_JAZZY).deserialize_cdr, [], [], 0, 0
+    for name, cdr in bag.messages_of([imu_topic, topic]):
+        samples += name == imu_topic
+        if name == topic:
+            try:
+                rows.append(row(decode(cdr, topics[topic])))
+                counts.append(samples)
+            except Exception:  # damaged bytes make rosbags raise anything
+                damaged += 1
+    if damaged:
+        bag.tell_unreadable(topic, damaged, 0)
+    stamps = np.array([at_ns for at_ns, *_ in rows], np.int64)
+    numbers = np.array([values for _, values in rows], np.float64).reshape(-1, 7)
+    fixes = FixBlock(stamps, numbers[:, :3], numbers[:, 3:6], numbers[:, 6])
+    return Arrivals(fixes, np.array(counts, np.int64))
+
+
+def row(message: Any) -> tuple[int, list[float]]:
+    """Return stamp, place, variances and yaw of a message; variances of 0, a yaw of NaN where it does not say them."""
+    stamp = message.header.stamp
+    place = message.point if hasattr(message, "point") else message.pose
+    covariance = getattr(place, "covariance", np.zeros(36))
+    place, yaw_rad = getattr(place, "pose", place), float("nan")
+    if hasattr(place, "position"):
+        turn = place.orientation
+        place, yaw_rad = place.position, yaw_or_none((turn.x, turn.y, turn.z, turn.w))
+    variances = [float(covariance[7 * axis]) for axis in range(3)]
+    return stamp.sec * NANOSECONDS + stamp.nanosec, [place.x, place.y, place.z, *known(variances), yaw_rad]
+
+
+def known(variances: list[float]) -> list[float]:
+    """Return variances of x, y, z; zeros, which say that they are unknown, where one is no variance."""
+    usable = all(np.isfinite(v) and v > 0.0 for v in variances[:2])
+    return [v if np.isfinite(v) and v > 0.0 else 0.0 for v in variances] if usable else [0.0, 0.0, 0.0]

@@ -1,0 +1,209 @@
+"""Node `external_odometry`: as an aid it gives what the aided foot gives offline, and compared it says how both lie."""
+
+import numpy as np
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from tf2_msgs.msg import TFMessage
+
+from pdr_core.maths.circular import wrapped_rad
+from pdr_core.parameter import ParameterError
+from pdr_core.params import Params, SimulationParams, changed
+from pdr_core.pipeline import AidedFeet, AidedFoot
+from pdr_core.records import joined, length, part
+from pdr_core.records_external import about_up
+from pdr_core.simulation import simulated_feet
+from pdr_core.simulation.external_source import ExternalSource, fixes, midway
+from pdr_nodes.convert import odometry_message, time_message
+from pdr_nodes.external_odometry_node import ExternalOdometryNode
+from pdr_nodes.qos import ANSWERS, LATEST, OWN, STATUS
+from support.bench import Bench
+from support.feet import FootOnTopics
+from support.walks import BEGIN_NS
+
+SOURCE = ExternalSource(noise_sd_m=0.1)
+AID = {"external__mode": "aid", "node__feet": "left"}
+FEW = 200  # samples before the first fix: so soon that the clocks agree
+
+
+@pytest.fixture(scope="module")
+def walks():
+    """The samples of both feet, and the fixes of somebody who follows the body."""
+    params = SimulationParams(walk="rectangle", walk_length_m=60.0, motion="smooth", sample_rate_hz=100.0, seed=3)
+    feet = simulated_feet(params, start_ns=BEGIN_NS)
+    said = fixes(midway(feet["left"].truth, feet["right"].truth), SOURCE)
+    return {name: foot.imu for name, foot in feet.items()}, said
+
+
+@pytest.fixture(scope="module")
+def walk(walks):
+    """Those of the left foot alone."""
+    return walks[0]["left"], walks[1]
+
+
+def message_of(said, i, kind, frame="map"):
+    message = kind()
+    message.header.stamp, message.header.frame_id = time_message(int(said.stamp_ns[i])), frame
+    place = message.pose.pose.position
+    place.x, place.y, place.z = said.position_m[i].tolist()
+    covariance = np.zeros(36)
+    covariance[[0, 7, 14]] = said.variance_m2[i]
+    message.pose.covariance = covariance
+    return message
+
+
+def offline(imu, said):
+    foot = AidedFoot(changed(Params(), "external", mode="aid"))
+    outputs = [foot.run(part(imu, 0, FEW))]
+    foot.fixes(said)
+    outputs += [foot.run(part(imu, FEW)), foot.finish()]
+    return foot, joined([output.nav for output in outputs])
+
+
+def tell(bench, foot, imu, said, kind):
+    """Walk, with all fixes after the first samples."""
+    person = bench.hear(Odometry, "odom")
+    external = bench.publisher(kind, "external")
+    bench.until(lambda: bench.me.count_publishers("left/heading_observation"), "who answers")
+    foot.walk(part(imu, 0, FEW))
+    bench.until(lambda: len(person) > FEW // 4, "the person's first way")
+    for i in range(len(said.stamp_ns)):
+        external.publish(message_of(said, i, kind))
+        bench.spin()
+    foot.walk(part(imu, FEW))
+    foot.end()
+    bench.until(lambda: foot.latest_ns == int(imu.stamp_ns[-1]), "the end of the walk")
+
+
+def last_is(frames, shift_m):
+    """The last frame that was heard lies there."""
+    places = [frame.pose.pose.position for frame in frames[-1:]]
+    return any(np.allclose([place.x, place.y, place.z], shift_m, rtol=0.0, atol=1e-9) for place in places)
+
+
+@pytest.mark.parametrize(("kind", "name"), [(Odometry, "odometry"), (PoseWithCovarianceStamped, "pose")])
+def test_as_an_aid_it_answers_as_the_aided_foot_does_offline(walk, kind, name):
+    imu, said = walk
+    said = said._replace(variance_m2=said.variance_m2 * [1.0, 1.0, 0.0])
+    aided, nav = offline(imu, said)
+    with Bench(ExternalOdometryNode, **AID, external__message=name, external__publish_tf=True) as bench:
+        frames, transforms = (
+            bench.hear(PoseWithCovarianceStamped, "external/frame", LATEST),
+            bench.hear(TFMessage, "/tf_static", LATEST),
+        )
+        foot = FootOnTopics(bench, "left")
+        tell(bench, foot, imu, said, kind)
+        bench.until(lambda: transforms and last_is(frames, aided.frame.shift_m), "the last frame")
+    told = [answer for answer in foot.answers if answer.position is not None]
+    assert len(told) > 10
+    assert foot.latest_ns == int(nav.stamp_ns[-1])
+    np.testing.assert_allclose(foot.chain.state.position_m, nav.position_m[-1], atol=1e-9)
+    pose = frames[-1]
+    assert pose.header.frame_id == "map"
+    assert 2.0 * np.arctan2(pose.pose.pose.orientation.z, pose.pose.pose.orientation.w) == pytest.approx(
+        aided.frame.yaw_rad
+    )
+    covariance = np.array(pose.pose.covariance).reshape(6, 6)
+    np.testing.assert_allclose(covariance, covariance.T)
+    assert np.linalg.eigvalsh(covariance)[0] > 0.0
+    (transform,) = transforms[-1].transforms
+    assert (transform.header.frame_id, transform.child_frame_id) == ("map", "odom")
+    assert transform.transform.translation.x == pytest.approx(aided.frame.shift_m[0])
+
+
+def test_both_feet_are_aided_as_they_are_offline(walks):
+    imus, said = walks
+    few = {name: part(imu, 0, FEW) for name, imu in imus.items()}
+    both = AidedFeet(Params())
+    outputs = [both.run(name, imu) for name, imu in few.items()]
+    both.fixes(said)
+    outputs += [both.run(name, part(imu, FEW)) for name, imu in imus.items()] + [both.finish()]
+    ends = {name: one.nav for output in outputs for name, one in output.feet if length(one.nav)}
+    with Bench(ExternalOdometryNode, external__mode="aid", node__answer_timeout_s=0.0) as bench:
+        person, external = bench.hear(Odometry, "odom"), bench.publisher(Odometry, "external")
+        feet = {name: FootOnTopics(bench, name) for name in imus}
+        for name, foot in feet.items():
+            bench.until(lambda n=name: bench.me.count_publishers(f"{n}/heading_observation"), "who answers")
+            foot.walk(few[name])
+        bench.until(lambda: len(person) > FEW // 4, "the person's first way")
+        for i in range(len(said.stamp_ns)):
+            external.publish(message_of(said, i, Odometry))
+            bench.spin()
+        for name, foot in feet.items():
+            foot.walk(part(imus[name], FEW))
+            foot.end()
+        for name, foot in feet.items():
+            bench.until(lambda n=name, f=foot: f.latest_ns == int(imus[n].stamp_ns[-1]), f"the end of {name}")
+    for name, foot in feet.items():
+        assert sum(answer.position is not None for answer in foot.answers) > 10
+        np.testing.assert_allclose(foot.chain.state.position_m, ends[name].position_m[-1], atol=1e-9)
+
+
+def test_two_known_points_lay_the_track_on_the_map(walk):
+    imu, said = walk
+    _, nav = offline(imu, part(said, 0, 0))
+    at = [length(nav) // 4, length(nav) // 2]
+    map_m = nav.position_m[at] @ about_up(2.0).T + [30.0, -12.0, 0.0]
+    with Bench(ExternalOdometryNode, external__message="point", external__publish_tf=True) as bench:
+        frames = bench.hear(PoseWithCovarianceStamped, "external/frame", LATEST)
+        board = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
+        points, odom = bench.publisher(PointStamped, "external", ANSWERS), bench.publisher(Odometry, "odom", OWN)
+        for i in range(length(nav)):
+            odom.publish(odometry_message(nav, i, "odom", "foot"))
+            if i % 50 == 0:
+                bench.spin()
+            if i in at:
+                point = PointStamped()
+                point.header.stamp, point.header.frame_id = time_message(int(nav.stamp_ns[i])), "map"
+                point.point.x, point.point.y, point.point.z = map_m[at.index(i)].tolist()
+                bench.until(lambda: not bench.node.waiting, "the estimates so far")
+                points.publish(point)
+                bench.spin()
+        bench.until(lambda: frames, "the frame")
+        bench.until(lambda: "known_points" in repr(board), "the notice")
+        assert "no_external" not in repr(board)
+    turn = frames[-1].pose.pose.orientation
+    assert wrapped_rad(2.0 * np.arctan2(turn.z, turn.w) - 2.0) == pytest.approx(0.0, abs=0.05)
+    assert frames[-1].header.frame_id == "map"
+
+
+def values_of(message):
+    return {value.key: float(value.value) for value in message.status[0].values}
+
+
+def test_compared_it_tells_frame_ate_and_deviations_and_answers_nothing(walk):
+    imu, said = walk
+    _, nav = offline(imu, part(said, 0, 0))
+    with Bench(ExternalOdometryNode) as bench:
+        heard = bench.hear(DiagnosticArray, "external/comparison", STATUS)
+        external, odom = bench.publisher(Odometry, "external"), bench.publisher(Odometry, "odom", OWN)
+        for i in range(0, length(nav), 50):
+            for row in range(i, min(i + 50, length(nav))):
+                odom.publish(odometry_message(nav, row, "odom", "foot"))
+            bench.spin()
+            for k in np.flatnonzero((said.stamp_ns >= nav.stamp_ns[i]) & (said.stamp_ns < nav.stamp_ns[i] + 5 * 10**8)):
+                external.publish(message_of(said, int(k), Odometry))
+            bench.spin()
+        bench.until(lambda: heard and "ate_m" in values_of(heard[-1]), "the comparison")
+        bench.until(lambda: values_of(heard[-1])["pairs"] > 30, "all pairs")
+        assert bench.me.count_publishers("left/heading_observation") == 0
+    found = values_of(heard[-1])
+    assert 0.05 < found["ate_m"] < 0.5
+    assert found["clock_s"] == pytest.approx(SOURCE.clock_s, abs=0.2)
+    assert 0.0 < found["yaw_sd_rad"] < 0.03
+    assert heard[-1].status[0].message == "aligned"
+
+
+def test_known_points_do_not_aid():
+    with (
+        pytest.raises(ParameterError, match=r"known points lay the track on a map: external.mode compare"),
+        Bench(ExternalOdometryNode, external__mode="aid", external__message="point"),
+    ):
+        pass
+
+
+def test_nobody_who_says_anything_is_named():
+    with Bench(ExternalOdometryNode) as bench:
+        heard = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
+        bench.until(lambda: "no fixes on" in repr(heard), "the notice")
