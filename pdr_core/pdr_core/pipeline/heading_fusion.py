@@ -44,13 +44,21 @@ class FusionOutput:
 NOTHING = FusionOutput([], NO_ROWS)
 
 
+@dataclass(frozen=True)
+class Asked:
+    """A step that waits for its answer, on the common clock; and on that of its foot, on which it is answered."""
+
+    step: StepEvent
+    own: StepEvent
+
+
 class HeadingFusion:
     """Hosts the heading constraint of one foot, or the fusion of a left and a right one, named in this order."""
 
     def __init__(self, params: Params, feet: Sequence[str]) -> None:
         self._early: list[Callable[[], FusionOutput]] = []  # what came before all clocks were known
-        self._steps: Watermark[StepEvent] = Watermark(feet)
-        self._certain: deque[tuple[str, StepEvent]] = deque()
+        self._steps: Watermark[Asked] = Watermark(feet)
+        self._certain: deque[tuple[str, Asked]] = deque()
         self._begin_clocks(feet, nanoseconds(params.fusion.clock_apart_s))
         self._last_rows: dict[str, NavBlock] = {}
         self._new_worlds: list[tuple[str, int]] = []  # of filters started anew: foot, and its first stamp there
@@ -101,7 +109,7 @@ class HeadingFusion:
     @property
     def _places_awaited_ns(self) -> dict[str, int]:
         """The feet that have not told where they are as the next step to be answered ends, and that stamp."""
-        return self._body.silent_at(self._certain[0][1].stamp_ns) if self._certain else {}
+        return self._body.silent_at(self._certain[0][1].step.stamp_ns) if self._certain else {}
 
     def _seen(self, foot: str, clock_is_back: bool, rows: NavBlock) -> FusionOutput:
         """Take rows on a foot's own clock; where that has jumped back, all clocks are compared anew."""
@@ -124,7 +132,7 @@ class HeadingFusion:
             self._tally.add("heading_not_asked", Level.WARN, NOT_ASKED, event.stamp_ns)
             return NOTHING
         common = shifted(event, self._clocks.shift_ns[foot])
-        return self._output(self._steps.put(foot, common.answer_due_ns, common))
+        return self._output(self._steps.put(foot, common.answer_due_ns, Asked(common, event)))
 
     def _rows(self, foot: str, own: NavBlock) -> FusionOutput:
         rows = own._replace(stamp_ns=own.stamp_ns + self._clocks.shift_ns[foot])
@@ -169,15 +177,16 @@ class HeadingFusion:
         self._own_ns = dict.fromkeys(feet, NO_STAMP)  # the last estimates, on the clock of the foot
         self._last_ns = dict.fromkeys(feet, NO_STAMP)  # and on the common one
 
-    def _output(self, certain: list[tuple[str, StepEvent]]) -> FusionOutput:
+    def _output(self, certain: list[tuple[str, Asked]]) -> FusionOutput:
         """Answer the steps for which the places of both feet are known too, and go on with the body."""
         self._certain += certain
         answers = []
-        while self._certain and self._body.known_until_ns >= self._certain[0][1].stamp_ns:
+        while self._certain and self._body.known_until_ns >= self._certain[0][1].step.stamp_ns:
             answers.append(self._answered(*self._certain.popleft()))
         return FusionOutput(answers, self._body.run())
 
-    def _answered(self, foot: str, step: StepEvent) -> tuple[str, HeadingObservation]:
+    def _answered(self, foot: str, asked: Asked) -> tuple[str, HeadingObservation]:
+        step = asked.step
         places = partial(self._body.places, step.stamp_ns)
         worlds_ns = [start_ns for name, start_ns in self._new_worlds if name == foot and start_ns < step.stamp_ns]
         if worlds_ns and self._pair.begin_anew(foot, step, places):
@@ -185,11 +194,7 @@ class HeadingFusion:
             self._body.find(foot, step.answer_due_ns)
         answer = self._pair.answer(foot, step, places)
         self._body.teach(step.answer_due_ns, self._pair.frames)
-        return foot, self._on_own_clock(foot, answer)
-
-    def _on_own_clock(self, foot: str, answer: HeadingObservation) -> HeadingObservation:
-        shift_ns = self._clocks.shift_ns[foot]
-        return replace(answer, step_ns=answer.step_ns - shift_ns, applies_from_ns=answer.applies_from_ns - shift_ns)
+        return foot, replace(answer, step_ns=asked.own.stamp_ns, applies_from_ns=asked.own.answer_due_ns)
 
 
 def shifted(step: StepEvent, shift_ns: int) -> StepEvent:

@@ -203,6 +203,18 @@ def test_a_foot_that_is_started_anew_with_another_clock_holds_nobody_up_for_long
     assert {"clock_jumped_back", "clocks_apart"} <= kinds
 
 
+def test_a_step_that_comes_before_the_clock_of_its_foot_is_answered_on_that_clock():
+    booted = {"left": later(samples(**STRAIGHT)["left"], -1.7e9), "right": samples(**STRAIGHT)["right"]}
+    left, right = (FootInertial(changed(Params(), "filter", heading_feedback=True)).run(booted[foot]) for foot in FEET)
+    fusion = HeadingFusion(Params(), FEET)
+    fusion.leave("right")
+    told = [fusion.odometry("left", left.nav), fusion.step("right", right.steps[0])]
+    told += [fusion.odometry("right", right.nav), fusion.leave("left"), fusion.finish()]
+    (answer,) = [answer for output in told for _, answer in output.answers]
+    step = right.steps[0]
+    assert (answer.step_ns, answer.applies_from_ns) == (step.stamp_ns, step.answer_due_ns)
+
+
 def test_rows_that_are_no_numbers_are_named_and_left_out():
     fusion, nav = HeadingFusion(Params(), ("foot",)), room(3)
     nav.stamp_ns[:], nav.quat_xyzw[:, 3] = [1, 2, 3], 1.0
