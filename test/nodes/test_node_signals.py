@@ -51,7 +51,7 @@ class Pair:
         for (name, number), (process, space, _) in self.running.items():
             self.bench.until(lambda n=name, s=space: moment(n, s), f"{name} to be up")
             process.send_signal(number)
-        return {key: (process.wait(30), log.read_text()) for key, (process, _, log) in self.running.items()}
+        return {key: (process.wait(120), log.read_text()) for key, (process, _, log) in self.running.items()}
 
 
 @pytest.mark.parametrize("when", ["there", "ready", "inactive"])

@@ -51,5 +51,5 @@ def test_endpoints_go_while_leases_run_out(tmp_path, monkeypatch):
     profile = tmp_path / "hasty.xml"
     profile.write_text(quick)
     monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(profile))
-    said = subprocess.run([sys.executable, "-c", COME_AND_GO], capture_output=True, text=True, timeout=60)
+    said = subprocess.run([sys.executable, "-c", COME_AND_GO], capture_output=True, text=True, timeout=120)
     assert said.stdout == "came and went\n", said.stderr

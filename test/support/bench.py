@@ -11,7 +11,7 @@ from rclpy.node import Node
 from pdr_nodes.qos import OWN
 from pdr_nodes.run import serve
 
-DEADLINE_S = 30.0
+DEADLINE_S = 120.0
 NUMBERS = count()
 
 

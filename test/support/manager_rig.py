@@ -34,7 +34,7 @@ def fake_driver(rig: "Rig", how: str, log: Path) -> Iterator[Path]:
         yield log
     finally:
         process.kill()
-        process.wait(30.0)
+        process.wait(120.0)
 
 
 class Rig(Bench):

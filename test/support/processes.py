@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 NODES = ("imu_driver", "imu_ingestion", "stance_detector", "zupt_ekf")
-END_S = 60.0
+END_S = 120.0
 
 
 def start(arguments: list[str], log: Path) -> subprocess.Popen:
@@ -32,7 +32,7 @@ def node_process(name: str, namespace: str, log: Path, **params: object) -> Iter
 def pdr(*arguments: object, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess:
     """Run a `pdr` command to its end."""
     command = [sys.executable, "-m", "pdr_bringup_scripts", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=os.environ | environment, timeout=300)
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=os.environ | environment, timeout=600)
 
 
 def check_refused(answer: subprocess.CompletedProcess, *words: str) -> None:

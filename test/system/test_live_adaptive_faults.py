@@ -58,7 +58,7 @@ class Walk:
 
     def kill(self, name):
         self.running[name].kill()
-        self.running[name].wait(30.0)
+        self.running[name].wait(120.0)
         heard_s = time.monotonic() + LAST_WORDS_S
         self.bench.until(lambda: time.monotonic() > heard_s, "what it said before")
 

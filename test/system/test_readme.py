@@ -30,7 +30,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory, ros_environment: int) -> Pa
 
 def typed(command: str, folder: Path) -> subprocess.CompletedProcess:
     """Run a command as a shell does."""
-    return subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=300)
+    return subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=600)
 
 
 def test_the_main_job_and_the_tests_are_one_command_each() -> None:
