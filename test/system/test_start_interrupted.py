@@ -14,5 +14,5 @@ def interrupted_before_it_began():
 
 def test_a_ctrl_c_that_was_waiting_stops_it_without_a_traceback():
     command = [sys.executable, "-m", "pdr_bringup_scripts", "params"]
-    answer = subprocess.run(command, preexec_fn=interrupted_before_it_began, capture_output=True, text=True, timeout=120)
+    answer = subprocess.run(command, preexec_fn=interrupted_before_it_began, capture_output=True, text=True, timeout=99)
     assert (answer.returncode, answer.stdout, answer.stderr) == (130, "", "pdr: stopped\n")
