@@ -5,12 +5,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from swing_cases import BIAS_RADPS, RULE, ideal_walk, switched
+from swing_cases import BIAS_RADPS, RULE, Early, ideal_walk, rolled_walk, switched, without_rates
 
-from pdr_core.gait.stance_turns import TIPPED_RAD, turned
+from pdr_core.gait.stance_turns import TIPPED_RAD, StanceTurns, turned
 from pdr_core.maths.swing_twist import twist_rad
+from pdr_core.pipeline import swing_bridge
 from pdr_core.pipeline.swing_bridge import HELD_NS, STAND_WALK, SwingBridge
-from pdr_core.records import joined
+from pdr_core.records import joined, length, part
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -37,7 +38,7 @@ def test_from_stand_to_stand_the_foot_turns_about_the_vertical_as_it_did(filled)
     attitude = Rotation.from_quat(walk.motion.quat_xyzw)
     stands = [a + int(np.flatnonzero(walk.motion.stance[a:b]).mean()) for a, b in sleeps]
     errors, tilts = zip(*(off(attitude, out, *pair) for pair in pairwise(stands)), strict=True)
-    assert np.abs(errors).max() < np.radians(0.05)
+    assert np.abs(errors).max() < np.radians(0.03)
     assert np.median(tilts) < np.radians(0.1)
 
 
@@ -67,3 +68,55 @@ def test_what_is_measured_stays_as_it_was_and_nothing_is_left_out(filled):
     between = np.concatenate([np.arange(b, a) for (_, b), (a, _) in pairwise(sleeps)])
     assert np.array_equal(out.gyro_radps[between], walk.imu.gyro_radps[between])
     assert np.array_equal(out.accel_mps2, walk.imu.accel_mps2)
+
+
+class Heard(StanceTurns):
+    """Writes down what it is told."""
+
+    def __init__(self):
+        super().__init__()
+        self.learnt, self.landings = [], []
+
+    def learn(self, slept, swing):
+        self.learnt.append((slept.stamp_ns[[0, -1]], swing))
+        super().learn(slept, swing)
+
+    def landing(self, rate_radps, up, flat):
+        self.landings.append((rate_radps, up))
+        return super().landing(rate_radps, up, flat)
+
+
+@pytest.fixture(scope="module")
+def heard():
+    """A walk whose turns are of no plane, its attitude, the first rows of its sleeps, and what was told of them."""
+    imu, attitude, stance = rolled_walk()
+    early = Early(imu.stamp_ns, stance)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(swing_bridge, "StanceTurns", Heard)
+        patch.setattr(swing_bridge, "MotionSwitch", lambda *_, **__: early)
+        bridge = SwingBridge(RULE)
+    bridge.bias_radps = BIAS_RADPS
+    given, asleep = without_rates(imu, early.asleep)
+    for first in range(0, length(given), 30):
+        bridge.run(part(given, first, first + 30))
+    return imu, attitude, np.flatnonzero(np.diff(asleep.astype(int)) == 1) + 1, bridge._turns
+
+
+def test_the_swing_between_two_sleeps_is_learnt_as_it_was(heard):
+    imu, attitude, _, turns = heard
+    rows = [np.searchsorted(imu.stamp_ns, stamps) for stamps, _ in turns.learnt]
+    assert len(rows) > 10
+    for (_, before), (after, _), (_, swing) in zip(rows, rows[1:], turns.learnt[1:], strict=False):
+        true = attitude[before].inv() * attitude[after]
+        assert swing is not None
+        assert (Rotation.from_quat(swing) * true.inv()).magnitude() < 0.005
+
+
+def test_the_landing_is_told_the_last_rate_and_where_up_is_then(heard):
+    imu, attitude, sleeps, turns = heard
+    assert len(turns.landings) > 10
+    for first, (rate, up) in zip(sleeps, turns.landings, strict=False):
+        last = first - 1
+        assert np.linalg.norm(rate) > 0.5
+        assert rate == pytest.approx(imu.gyro_radps[last] - BIAS_RADPS)
+        assert up == pytest.approx(attitude[last].inv().apply(UP), abs=0.01)
