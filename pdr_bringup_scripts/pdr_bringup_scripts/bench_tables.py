@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 
 from rich.box import SIMPLE
 from rich.console import Console
@@ -32,6 +33,12 @@ def show(errors: list[MechanisationError], table_1: list[Table1Result], found: l
     out = console()
     for one in (mechanisation_table(errors), table_1_table(table_1), *map(consistency_table, found)):
         out.print(one)
+
+
+def write_page(out: Path, files: str, page: str, figures: str) -> None:
+    """Write a page and its figures, a JSON object, into a folder that exists; `files`: both names."""
+    for name, text in zip(files.split(", "), (page, figures + "\n"), strict=True):
+        (out / name).write_text(text, encoding="utf-8")
 
 
 def console(width: int = WIDTH) -> Console:

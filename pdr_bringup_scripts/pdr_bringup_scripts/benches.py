@@ -52,7 +52,7 @@ class Bench(NamedTuple):
 
 def run(asked: Mapping[str, bool], job: Job) -> None:
     """Run the bench whose option was given, or the one without an option; Problem if options do not go together."""
-    from pdr_bringup_scripts.book import make_folder
+    from pdr_bringup_scripts.track_book import make_folder
 
     bench = chosen([name for name, wanted in asked.items() if wanted], job)
     if job.out:

@@ -3,22 +3,16 @@
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TextIO
 
-import numpy as np
-
-from pdr_bringup_scripts.book import make_folder
 from pdr_bringup_scripts.provenance import VERSION, commit
-from pdr_core.conventions import NANOSECONDS
+from pdr_bringup_scripts.track_book import TrackBook
 from pdr_core.evaluation.body_page import Way, write_body_report
 from pdr_core.evaluation.body_truth import truth_between
 from pdr_core.evaluation.result import CAUSAL, Result
-from pdr_core.evaluation.score import Scorer
 from pdr_core.params import Params, params_as_mapping
 from pdr_core.pipeline import FootOutput
 from pdr_core.recording import Sensor, Session
-from pdr_core.recording.tum import Trajectory, append_tum, write_tum_header
-from pdr_core.records import Floats, NavBlock, Notice, length
+from pdr_core.records import Floats, NavBlock, Notice
 
 FILES = "trajectory.tum, result.json, report.html"  # strides are those of feet
 
@@ -28,18 +22,10 @@ class BodyBook:
 
     def __init__(self, session: Session, feet: Sequence[Sensor], out: Path | None, stack: ExitStack) -> None:
         self._session = session
-        self._scorer = Scorer(truth_between(feet[0].truth, feet[1].truth))
+        self.track = TrackBook(truth_between(feet[0].truth, feet[1].truth), out, stack)
         self._way = Way()
         self._ways = {foot.name: Way() for foot in feet}
         self._out = out
-        self._trajectory: TextIO | None = None
-        self._rows = 0
-        self._last_ns: int | None = None
-        self.duration_s = 0.0
-        if out:
-            make_folder(out)
-            self._trajectory = stack.enter_context((out / "trajectory.tum").open("w"))
-            write_tum_header(self._trajectory)
 
     def keep_foot(self, foot: str, output: FootOutput) -> None:
         """Take the next estimates of a foot."""
@@ -47,16 +33,8 @@ class BodyBook:
 
     def keep(self, nav: NavBlock) -> None:
         """Take the next estimates of the body."""
-        if not length(nav):
-            return
-        steps_ns = np.diff(nav.stamp_ns, prepend=nav.stamp_ns[0] if self._last_ns is None else self._last_ns)
-        self.duration_s += float(np.clip(steps_ns, 0, None).sum()) / NANOSECONDS
-        self._last_ns = int(nav.stamp_ns[-1])
-        self._rows += length(nav)
-        self._scorer.add(nav)
+        self.track.keep(nav)
         self._way.add(nav)
-        if self._trajectory:
-            append_tum(self._trajectory, Trajectory(nav.stamp_ns, nav.position_m, nav.quat_xyzw))
 
     def close(
         self,
@@ -71,26 +49,26 @@ class BodyBook:
         result = Result(
             recording=str(self._session.path),
             format=self._session.format,
-            samples=self._rows,
-            duration_s=self.duration_s,
+            samples=self.track.rows,
+            duration_s=self.track.duration_s,
             pipeline=pipeline,
             **CAUSAL._asdict(),
             strides=round(sum(foot.strides for foot in feet.values()) / len(feet)),
             distance_m=sum(foot.distance_m for foot in feet.values()) / len(feet),
-            end_position_m=self._scorer.end_position_m,
-            closure_2d_m=self._scorer.closure_2d_m,
-            closure_3d_m=self._scorer.closure_3d_m,
+            end_position_m=self.track.scorer.end_position_m,
+            closure_2d_m=self.track.scorer.closure_2d_m,
+            closure_3d_m=self.track.scorer.closure_3d_m,
             gait=None,
             seconds=seconds,
             notices=notices,
             config=params_as_mapping(params),
-            truth=self._scorer.score([], self._scorer.start_position_m),
+            truth=self.track.scorer.score([], self.track.scorer.start_position_m),
             version=VERSION,
             commit=commit(),
         )
         if self._out:
             (self._out / "result.json").write_text(result.to_json() + "\n")
             feet_m = {foot: placed_m(foot, way.position_m) for foot, way in self._ways.items()}
-            view = self._scorer.view([], self._scorer.start_position_m)
+            view = self.track.scorer.view([], self.track.scorer.start_position_m)
             write_body_report(self._out / "report.html", result, self._way.position_m, feet_m, view)
         return result

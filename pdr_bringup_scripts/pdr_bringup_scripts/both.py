@@ -33,7 +33,7 @@ def run_both(session: Session, feet: Sequence[Sensor], params: Params, out: Path
         for foot, piece in in_turn(feet):
             samples[foot] += length(piece) if piece else 0
             keep(watch(both.run, foot, piece) if piece else watch(both.end, foot), books, body)
-            show(f"{body.duration_s:.0f} s of the recording")
+            show(f"{body.track.duration_s:.0f} s of the recording")
         keep(watch(both.finish), books, body)
         notices = both.notices
         results = {

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pdr_bringup_scripts.bench_tables import show_titled
+from pdr_bringup_scripts.bench_tables import show_titled, write_page
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.bench import cheng_gain
 from pdr_core.bench.cheng_tables import LONG_M, ChengBench, ChengRow, GainPoint, best, better_percent, rows
@@ -121,8 +121,7 @@ def long_table(bench: ChengBench) -> TitledTable:
 def write_files(out: Path, bench: ChengBench) -> None:
     """Write the page and the figures into a folder that exists."""
     page = cheng_page(tables(bench), cases(bench.drawn), drawn_gain(bench), VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_json(bench) + "\n"), strict=True):
-        (out / name).write_text(text, encoding="utf-8")
+    write_page(out, FILES, page, as_json(bench))
 
 
 def cases(drawn: Sequence[Walked]) -> list[ChengDrawn]:

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
-from pdr_bringup_scripts.book import make_folder
 from pdr_bringup_scripts.options import known_name
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Bar, Terminal
+from pdr_bringup_scripts.track_book import make_folder
 from pdr_core.bench.trial import NoSamples, Walk
 from pdr_core.recording import RecordingError, Sensor, Session, open_recording
 from pdr_core.warmup import warm_up

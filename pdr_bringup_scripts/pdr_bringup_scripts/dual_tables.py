@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pdr_bringup_scripts.bench_tables import console, table
+from pdr_bringup_scripts.bench_tables import console, table, write_page
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.bench.dual_tables import DualRow, repeated, row
 from pdr_core.bench.dual_walks import DualWalk, FootTrack
@@ -84,8 +84,7 @@ def write_files(out: Path, walks: Sequence[DualWalk]) -> None:
     """Write the page and the figures into a folder that exists."""
     drawn = [drawn_feet(each) for each in repeated(walks)]
     page = dual_page(tables(rows(walks)), drawn, VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_json(walks) + "\n"), strict=True):
-        (out / name).write_text(text, encoding="utf-8")
+    write_page(out, FILES, page, as_json(walks))
 
 
 def drawn_feet(walks: Sequence[DualWalk]) -> DrawnFeet:

@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import NamedTuple
 
-from pdr_bringup_scripts.bench_tables import console, table
+from pdr_bringup_scripts.bench_tables import console, table, write_page
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.bench.energy_walks import SCHEMES, SIMULATED, EnergyRun, energy_runs, known, means, simulated
 from pdr_core.bench.trial import Walk
@@ -120,8 +120,7 @@ def write_files(out: Path, found: Found) -> None:
     """Write the page and the figures into a folder that exists."""
     drawn = [EnergyGroup(g.name, points(g.runs), points(means(g.runs))) for g in found.groups]
     page = energy_page(tables(found), drawn, VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_json(found) + "\n"), strict=True):
-        (out / name).write_text(text, encoding="utf-8")
+    write_page(out, FILES, page, as_json(found))
 
 
 def points(runs: Sequence[EnergyRun]) -> list[EnergyPoint]:

@@ -37,7 +37,7 @@ def run_external(session: Session, sensor: Sensor, params: Params, options: RunO
                 if fixes:
                     pipeline.fixes(fixes)
                 samples += length(piece)
-                show(f"{book.duration_s:.0f} s of the recording, {len(book.steps)} strides")
+                show(f"{book.track.duration_s:.0f} s of the recording, {len(book.steps)} strides")
             book.keep(pipeline.finish())
         external = External(options.external, aids, pipeline.comparison)
         name = AIDED if aids else COMPARED

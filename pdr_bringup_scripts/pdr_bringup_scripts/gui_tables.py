@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from pdr_bringup_scripts.bench_tables import show_titled
+from pdr_bringup_scripts.bench_tables import show_titled, write_page
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.bench.gui_tables import GuiRow, rows
 from pdr_core.bench.gui_variants import TABLE_3, VARIANTS
@@ -60,8 +60,7 @@ def walk_row(row: GuiRow) -> tuple[str, ...]:
 def write_files(out: Path, results: Sequence[GuiResult], drawn: Sequence[Measured]) -> None:
     """Write the page and the figures into a folder that exists."""
     page = gui_page(tables(results), walks(drawn), VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_json(results) + "\n"), strict=True):
-        (out / name).write_text(text, encoding="utf-8")
+    write_page(out, FILES, page, as_json(results))
 
 
 def walks(drawn: Sequence[Measured]) -> list[GuiDrawn]:

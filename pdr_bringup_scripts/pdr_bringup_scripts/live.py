@@ -8,13 +8,13 @@ from pathlib import Path
 from shutil import rmtree
 from typing import Any
 
-from pdr_bringup_scripts.book import make_folder
 from pdr_bringup_scripts.cast import Cast
 from pdr_bringup_scripts.chain import NAMESPACE, stay_on_this_machine
 from pdr_bringup_scripts.judging import BAG, judge
 from pdr_bringup_scripts.listener import Ears, bag_writer, is_status, message
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.track_book import make_folder
 from pdr_core.evaluation.result import Result, SensorsResult
 from pdr_core.params import Params
 from pdr_core.recording import Sensor

@@ -105,7 +105,7 @@ def estimate(pipeline: FootInertial | FootAdaptive | ChestCard, sensor: Sensor, 
         for piece in sensor.pieces():
             book.keep(watch(pipeline.run, piece))
             samples += length(piece)
-            show(f"{book.duration_s:.0f} s of the recording, {len(book.steps)} strides")
+            show(f"{book.track.duration_s:.0f} s of the recording, {len(book.steps)} strides")
         book.keep(pipeline.finish())
     return samples
 

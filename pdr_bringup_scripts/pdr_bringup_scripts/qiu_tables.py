@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pdr_bringup_scripts.bench_tables import show_titled
+from pdr_bringup_scripts.bench_tables import show_titled, write_page
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.bench.qiu_tables import Cost, Means, means, of
 from pdr_core.bench.qiu_walks import METHODS, Measured, QiuResult
@@ -118,8 +118,7 @@ def spread(values: Sequence[float]) -> str:
 def write_files(out: Path, walks: Sequence[Measured], costs: Sequence[Cost]) -> None:
     """Write the page and the figures into a folder that exists; the first walk of each table is drawn."""
     page = qiu_page(tables([w.result for w in walks], costs), drawn(walks), VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_json(walks, costs) + "\n"), strict=True):
-        (out / name).write_text(text, encoding="utf-8")
+    write_page(out, FILES, page, as_json(walks, costs))
 
 
 def drawn(walks: Sequence[Measured]) -> list[DrawnWalk]:

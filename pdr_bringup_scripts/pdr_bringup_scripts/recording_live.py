@@ -6,7 +6,6 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
-from pdr_bringup_scripts.book import make_folder
 from pdr_bringup_scripts.chain import stay_on_this_machine
 from pdr_bringup_scripts.interrupt import Interrupt
 from pdr_bringup_scripts.listener import Ears, own_definitions
@@ -14,6 +13,7 @@ from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.recorder import Recorder
 from pdr_bringup_scripts.run_folder import new_run_folder
 from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.track_book import make_folder
 from pdr_core.evaluation.words import counted, duration
 from pdr_core.recording.mcap_writer import McapWriter
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pdr_bringup_scripts.bench_tables import show_titled
+from pdr_bringup_scripts.bench_tables import show_titled, write_page
 from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_bringup_scripts.zhou_cost import StepCost
 from pdr_bringup_scripts.zhou_drawings import chapters
@@ -157,5 +157,4 @@ def length_table(errors: Sequence[LengthError]) -> TitledTable:
 def write_files(out: Path, results: Results, costs: Sequence[StepCost], drawn: Drawn) -> None:
     """Write the page and the figures into a folder that exists."""
     page = zhou_page(tables(results, costs), chapters(drawn), VERSION, commit())
-    for name, text in zip(FILES.split(", "), (page, as_json(results, costs) + "\n"), strict=True):
-        (out / name).write_text(text, encoding="utf-8")
+    write_page(out, FILES, page, as_json(results, costs))

@@ -15,11 +15,10 @@ from pdr_core.attitude.settings import Settings
 from pdr_core.attitude.sphere import tangents
 from pdr_core.attitude.state import GYRO_BIAS, QUATERNION, SIZE, AttitudeState
 from pdr_core.maths.compiled import compiled
+from pdr_core.maths.levelling import ACCEL_PER_SPEED
 from pdr_core.maths.quaternion import Quaternion, multiply, normalised, rows
-from pdr_core.maths.vector import Vector, norm, product, rotated, scaled
+from pdr_core.maths.vector import Vector, norm, product, scaled
 from pdr_core.records import Floats
-
-ACCEL_PER_SPEED = 0.1 / 0.0022  # [1/s] a foot that moves at this speed accelerates so much: units of the GLRT
 
 
 @compiled
@@ -56,20 +55,6 @@ def motion_mps2(force_mps2: Vector, rate_radps: Vector, s: Settings) -> float:
 def sample_variance(sd_mps2: float, dt_s: float, s: Settings) -> float:
     """Return the variance that one sample of many counts with."""
     return sd_mps2**2 * max(1.0, s.accel_correlation_s / dt_s)
-
-
-@compiled
-def off_vertical(quat_xyzw: Floats, force_mps2: Vector) -> tuple[float, float, float]:
-    """Return the shortest turn [rad] about the world's x and y that lays the force (foot frame) on the vertical.
-
-    Its angle comes last.
-    """
-    up = rotated(rows(quat_xyzw), force_mps2)
-    across = np.hypot(up[0], up[1])
-    angle = np.arctan2(across, up[2])
-    if across < 1e-9 * norm(up):
-        return angle, 0.0, angle
-    return up[1] * angle / across, -up[0] * angle / across, angle
 
 
 @compiled

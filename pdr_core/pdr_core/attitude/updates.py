@@ -8,6 +8,7 @@ from pdr_core.attitude.sphere import corrected, spread
 from pdr_core.attitude.state import GYRO_BIAS, SIZE, AttitudeState
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.kalman import Innovation, correct, estimated_error, gain, innovation, normalised_squared
+from pdr_core.maths.levelling import off_vertical
 from pdr_core.maths.quaternion import from_rotation_vector, rows
 from pdr_core.maths.vector import Vector, difference, norm, rotated
 from pdr_core.records import Floats
@@ -43,7 +44,7 @@ def level(force_mps2: Vector, sd_mps2: float, dt_s: float, s: Settings, state: A
         state.contradicted_s = contradicted_s
         if contradicted_s <= s.release_s:
             return
-        about_x, about_y, angle = gravity.off_vertical(state.quat_xyzw, force_mps2)
+        about_x, about_y, angle = off_vertical(state.quat_xyzw, force_mps2)
         spread(np.full(3, angle**2), state)
         gravity.stand_up(from_rotation_vector((about_x, about_y, 0.0)), state)
         state.doubted += 1

@@ -10,12 +10,11 @@ import numpy as np
 
 from pdr_core.eskf.error_state import ATTITUDE, SIZE
 from pdr_core.maths.compiled import compiled
-from pdr_core.maths.quaternion import rows
-from pdr_core.maths.vector import Vector, norm, rotated
+from pdr_core.maths.levelling import ACCEL_PER_SPEED, off_vertical
+from pdr_core.maths.vector import Vector
 from pdr_core.records import Floats
 
 LOST_RAD = 0.2  # a tilt as uncertain as this is lost
-ACCEL_PER_SPEED = 0.1 / 0.0022  # [1/s]
 
 H = np.eye(SIZE)[ATTITUDE : ATTITUDE + 2]
 
@@ -29,12 +28,8 @@ def tilt_is_lost(P: Floats) -> bool:
 @compiled
 def residual(quat_xyzw: Floats, force_mps2: Vector) -> Floats:
     """Return the turn [rad] about world x and y that lays the measured force (foot frame) on the vertical, (2,)."""
-    up = rotated(rows(quat_xyzw), force_mps2)
-    across = np.hypot(up[0], up[1])
-    angle = np.arctan2(across, up[2])
-    if across < 1e-9 * norm(up):
-        return np.array([angle, 0.0])
-    return np.array([up[1] * angle / across, -up[0] * angle / across])
+    about_x, about_y, _ = off_vertical(quat_xyzw, force_mps2)
+    return np.array([about_x, about_y])
 
 
 @compiled

@@ -49,10 +49,7 @@ def body_plan(body_m: Floats, feet_m: Mapping[str, Floats], view: TruthView | No
     if view:
         style.line(fig, "Truth", view.truth_m[:, 0], view.truth_m[:, 1], style.ORANGE, dash="dash")
     style.line(fig, "Body", body_m[:, 0], body_m[:, 1], style.BLUE)
-    fig.update_traces(hovertemplate="x %{x:.2f} m, y %{y:.2f} m")
-    fig.update_yaxes(scaleanchor="x", scaleratio=1)
-    fig.update_layout(hovermode="closest")
-    return fig
+    return style.from_above(fig)
 
 
 def write_body_report(

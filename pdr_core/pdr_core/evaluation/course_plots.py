@@ -25,10 +25,7 @@ def courses(estimates: Sequence[CourseTrack], truth: CourseTrack) -> "Figure":
     fig = style.figure("x [m]", "y [m]")
     for track, colour, dash in looks(estimates, truth):
         style.line(fig, track.name, track.position_m[:, 0], track.position_m[:, 1], colour, dash=dash)
-    fig.update_traces(hovertemplate="x %{x:.2f} m, y %{y:.2f} m")
-    fig.update_yaxes(scaleanchor="x", scaleratio=1)
-    fig.update_layout(hovermode="closest")
-    return fig
+    return style.from_above(fig)
 
 
 def headings(estimates: Sequence[CourseTrack], truth: CourseTrack) -> "Figure":

@@ -54,7 +54,4 @@ def plan(study: HeadingStudy) -> "Figure":
         style.line(fig, "Truth", study.truth_m[:, 0], study.truth_m[:, 1], style.ORANGE, dash="dash")
     for i, (name, track_m) in enumerate(study.tracks_m.items()):
         style.line(fig, name, track_m[:, 0], track_m[:, 1], BESIDE_TRUTH[i % len(BESIDE_TRUTH)])
-    fig.update_traces(hovertemplate="x %{x:.2f} m, y %{y:.2f} m")
-    fig.update_yaxes(scaleanchor="x", scaleratio=1)
-    fig.update_layout(hovermode="closest")
-    return fig
+    return style.from_above(fig)

@@ -31,10 +31,7 @@ def plan(trace: Trace, steps: Sequence[StepEvent], view: TruthView | None) -> "F
         _add_footfalls(fig, steps)
     _add_mark(fig, "Start", points.position_m[0], "triangle-up", style.GREEN)
     _add_mark(fig, "End", points.position_m[-1], "square", style.PURPLE)
-    fig.update_traces(hovertemplate="x %{x:.2f} m, y %{y:.2f} m", selector={"mode": "lines"})
-    fig.update_yaxes(scaleanchor="x", scaleratio=1)
-    fig.update_layout(hovermode="closest")
-    return fig
+    return style.from_above(fig, selector={"mode": "lines"})
 
 
 def _add_truth(fig: "Figure", view: TruthView) -> None:

@@ -35,6 +35,14 @@ def figure(x_title: str, y_title: str) -> "Figure":
     return fig
 
 
+def from_above(fig: "Figure", **which: Any) -> "Figure":
+    """Return a figure whose lines are ways on the ground: a metre is as long in x as in y; `which` of them say so."""
+    fig.update_traces(hovertemplate="x %{x:.2f} m, y %{y:.2f} m", **which)
+    fig.update_yaxes(scaleanchor="x", scaleratio=1)
+    fig.update_layout(hovermode="closest")
+    return fig
+
+
 def dress(fig: "Figure") -> None:
     """Give a figure the common look: a legend above, thin grid lines, room for the axes' titles."""
     fig.update_layout(

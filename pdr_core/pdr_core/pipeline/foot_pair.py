@@ -14,6 +14,7 @@ from pdr_core.notices import Tally
 from pdr_core.params import Params
 from pdr_core.pipeline.step_answers import StepAnswers
 from pdr_core.records import Floats, HeadingObservation, Level, Notice, PositionError, StepEvent
+from pdr_core.records_external import about_up
 
 SWAPPED = "the sensors seem to be swapped: in turns the foot that is called the right one goes as the left one does"
 MOUNTING = "the feet walk in directions that differ by {:.0f} deg: calibrate both mountings by `pdr calibrate mounting`"
@@ -99,12 +100,6 @@ class FootPair:
     def notices(self) -> list[Notice]:
         """What was wrong so far."""
         return self._answers.notices + self._tally.notices
-
-
-def about_up(angle_rad: float) -> Floats:
-    """Return the rotation (3, 3) by an angle about z."""
-    c, s = np.cos(angle_rad), np.sin(angle_rad)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def turned(step: StepEvent, angle_rad: float) -> StepEvent:

@@ -5,6 +5,7 @@ import numpy as np
 from pdr_core.conventions import nanoseconds
 from pdr_core.eskf.output import empty_nav
 from pdr_core.maths.quaternion import from_euler, matrix, multiply, yaw_rad
+from pdr_core.pipeline.gait_watch import SeenStride
 from pdr_core.records import Flags, NavBlock, PoseEstimate, joined, length, part
 from pdr_core.records_gait import Angle
 
@@ -33,6 +34,13 @@ class RecentTrack:
         """Return the pose at a stamp; None: it is not remembered."""
         i = int(np.searchsorted(self._nav.stamp_ns, stamp_ns))
         return self._pose(i) if i < length(self._nav) and stamp_ns >= self._nav.stamp_ns[0] else None
+
+    def ends(self, stride: SeenStride) -> tuple[PoseEstimate, PoseEstimate] | None:
+        """Return the poses where the foot stood before and after a stride; None: the filter has not seen both."""
+        if stride.before is None or stride.stand is None:
+            return None
+        before, after = self.at(stride.before.stamp_ns), self.at(stride.stand.stamp_ns)
+        return (before, after) if before and after else None
 
     def move(self, now: PoseEstimate) -> None:
         """Lay what is remembered so that its newest estimate is where the filter, corrected, has the foot now."""

@@ -152,14 +152,3 @@ def test_white_noise_of_the_rate_spreads_the_attitude_and_no_more():
     for _ in range(100):
         turn((1.0, -2.0, 0.5), 0.02, 0.01, SETTINGS, state)
     np.testing.assert_allclose(rotation_covariance(state), np.eye(3) * 100 * (0.02 * 0.01) ** 2, rtol=1e-5, atol=1e-12)
-
-
-def test_the_shortest_turn_lays_the_force_on_the_vertical():
-    for seed in range(5):
-        q = Rotation.random(random_state=seed).as_quat()
-        force = np.random.default_rng(seed).standard_normal(3)
-        about_x, about_y, angle = gravity.off_vertical(q, force)
-        up = (Rotation.from_rotvec([about_x, about_y, 0.0]) * Rotation.from_quat(q)).apply(force)
-        np.testing.assert_allclose(up, [0.0, 0.0, np.linalg.norm(force)], atol=1e-12)
-        assert angle == pytest.approx(np.hypot(about_x, about_y))
-    assert gravity.off_vertical(np.array([0.0, 0.0, 0.0, 1.0]), (0.0, 0.0, -9.8))[2] == pytest.approx(np.pi)

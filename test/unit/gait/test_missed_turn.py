@@ -26,6 +26,12 @@ def test_it_tells_a_turn_by_its_signs_and_how_well():
     assert told.mean_time_s == pytest.approx(0.07)
 
 
+def test_the_noise_of_few_turns_is_not_taken_for_less_than_it_is():
+    """A plane through n turns takes as many of their 3 n freedoms as it has numbers: what is left over is scaled up."""
+    variances = [learnt(10, seed=seed).told(np.zeros((2, 3))).sd_rad ** 2 for seed in range(300)]
+    assert np.mean(variances) == pytest.approx(SD_RAD**2, rel=0.06)
+
+
 def test_a_stumble_moves_the_noise_and_not_the_habit():
     signs = np.array([[0.0, 6.0, 1.0], [0.0, 0.0, 0.0]])
     steady, stumbled = learnt(40).told(signs), learnt(40, 3).told(signs)

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from pdr_core.maths import quaternion
-from pdr_core.maths.levelling import levelled
+from pdr_core.maths.levelling import levelled, off_vertical
 
 G = 9.81
 
@@ -34,3 +34,14 @@ def test_the_one_sided_arctangent_of_gui_fails_upside_down():
     still_down = Rotation.from_euler("y", gui_roll).apply(force)
     assert still_down[2] < 0.0
     assert Rotation.from_quat(levelled(force, 0.0)).apply(force)[2] > 0.0
+
+
+def test_the_shortest_turn_lays_the_force_on_the_vertical():
+    for seed in range(5):
+        q = Rotation.random(random_state=seed).as_quat()
+        force = np.random.default_rng(seed).standard_normal(3)
+        about_x, about_y, angle = off_vertical(q, force)
+        up = (Rotation.from_rotvec([about_x, about_y, 0.0]) * Rotation.from_quat(q)).apply(force)
+        np.testing.assert_allclose(up, [0.0, 0.0, np.linalg.norm(force)], atol=1e-12)
+        assert angle == pytest.approx(np.hypot(about_x, about_y))
+    assert off_vertical(np.array([0.0, 0.0, 0.0, 1.0]), (0.0, 0.0, -9.8))[2] == pytest.approx(np.pi)
