@@ -12,6 +12,7 @@ from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.body_page import Way, write_body_report
 from pdr_core.evaluation.body_truth import truth_between
+from pdr_core.evaluation.external import External
 from pdr_core.evaluation.result import CAUSAL, Result
 from pdr_core.evaluation.score import Scorer
 from pdr_core.params import Params, params_as_mapping
@@ -66,6 +67,7 @@ class BodyBook:
         seconds: float,
         notices: list[Notice],
         placed_m: Callable[[str, Floats], Floats],
+        external: External | None = None,
     ) -> Result:
         """Return the result and write the files; of strides and distance the feet's mean counts."""
         result = Result(
@@ -87,6 +89,7 @@ class BodyBook:
             truth=self._scorer.score([], self._scorer.start_position_m),
             version=VERSION,
             commit=commit(),
+            external=external,
         )
         if self._out:
             (self._out / "result.json").write_text(result.to_json() + "\n")
