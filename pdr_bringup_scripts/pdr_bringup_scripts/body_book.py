@@ -8,6 +8,7 @@ from pdr_bringup_scripts.provenance import VERSION, commit
 from pdr_bringup_scripts.track_book import TrackBook
 from pdr_core.evaluation.body_page import Way, write_body_report
 from pdr_core.evaluation.body_truth import truth_between
+from pdr_core.evaluation.external import External
 from pdr_core.evaluation.result import CAUSAL, Result
 from pdr_core.params import Params, params_as_mapping
 from pdr_core.pipeline import FootOutput
@@ -44,6 +45,7 @@ class BodyBook:
         seconds: float,
         notices: list[Notice],
         placed_m: Callable[[str, Floats], Floats],
+        external: External | None = None,
     ) -> Result:
         """Return the result and write the files; of strides and distance the feet's mean counts."""
         result = Result(
@@ -65,6 +67,7 @@ class BodyBook:
             truth=self.track.scorer.score([], self.track.scorer.start_position_m),
             version=VERSION,
             commit=commit(),
+            external=external,
         )
         if self._out:
             (self._out / "result.json").write_text(result.to_json() + "\n")

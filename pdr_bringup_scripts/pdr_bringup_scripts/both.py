@@ -1,47 +1,61 @@
-"""Estimates two feet of a recording together: the files of each foot, and those of the body between them."""
+"""Estimates two feet of a recording together: the files of each foot, and those of the body between them.
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+Beside somebody else's odometry or known points the body is compared with them, or both feet are aided by them.
+"""
+
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
 from pdr_bringup_scripts.body_book import BodyBook
 from pdr_bringup_scripts.book import Book
+from pdr_bringup_scripts.external_run import come_beside
+from pdr_bringup_scripts.known_points import write_on_map
 from pdr_bringup_scripts.offline import Watch
+from pdr_bringup_scripts.run_options import RunOptions
 from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.turns import Beside, in_turn
+from pdr_core.evaluation.external import External
 from pdr_core.evaluation.result import SensorsResult
 from pdr_core.params import Params, changed
-from pdr_core.pipeline import BothFeet, BothOutput
+from pdr_core.pipeline import AidedFeet, BothFeet, BothOutput, ComparedFeet
+from pdr_core.pipeline.both_feet import BODY
 from pdr_core.recording import Sensor, Session
-from pdr_core.records import ImuBlock, length
+from pdr_core.records import length
 from pdr_core.warmup import warm_up
 
-PIPELINE = "both_feet"
-PIECE = 4096  # samples: as far as one foot runs ahead of the other
+PIPELINES = {BothFeet: "both_feet", ComparedFeet: "compared_feet", AidedFeet: "aided_feet"}
 
 
-def run_both(session: Session, feet: Sequence[Sensor], params: Params, out: Path | None) -> SensorsResult:
-    """Estimate a left and a right foot; `out` gets a folder for each and one for the body."""
+def run_both(session: Session, feet: Sequence[Sensor], params: Params, options: RunOptions) -> SensorsResult:
+    """Estimate a left and a right foot; `options.out` gets a folder for each and one for the body."""
+    out, names = options.out, [foot.name for foot in feet]
     asking = changed(params, "filter", heading_feedback=True)
-    warm_up(asking)
-    watch, both = Watch(), BothFeet(asking, [foot.name for foot in feet])
-    samples = dict.fromkeys((foot.name for foot in feet), 0)
+    warm_up(asking, both=True)
+    heard = hearing(asking, names) if options.beside else None
+    both, watch, samples = heard or BothFeet(asking, names), Watch(), dict.fromkeys(names, 0)
+    turns = in_turn(feet, Beside(come_beside(session, feet, options), heard.fixes) if heard else None)
     with ExitStack() as stack:
         books = {foot.name: Book(session, foot, out / foot.name if out else None, stack) for foot in feet}
-        body = BodyBook(session, feet, out / "body" if out else None, stack)
+        body = BodyBook(session, feet, out / BODY if out else None, stack)
         show = stack.enter_context(Terminal().progress("Estimating both feet"))
-        for foot, piece in in_turn(feet):
+        for foot, piece in turns:
             samples[foot] += length(piece) if piece else 0
             keep(watch(both.run, foot, piece) if piece else watch(both.end, foot), books, body)
             show(f"{body.track.duration_s:.0f} s of the recording")
         keep(watch(both.finish), books, body)
-        notices = both.notices
-        results = {
-            name: book.close(PIPELINE, asking, samples[name], watch.seconds, notices[name])
-            for name, book in books.items()
-        }
-        of_body = body.close(PIPELINE, asking, results, watch.seconds, notices["body"], both.placed_m)
+        name, notices, seconds = PIPELINES[type(both)], both.notices, watch.seconds
+        results = {n: book.close(name, asking, samples[n], seconds, notices[n]) for n, book in books.items()}
+        external = External(options.external, isinstance(both, AidedFeet), heard.comparison) if heard else None
+        of_body = body.close(name, asking, results, seconds, notices[BODY], both.placed_m, external)
+    if out and heard:
+        lay_on_map(out, names, heard)
     return SensorsResult(str(session.path), session.format, results, of_body)
+
+
+def hearing(params: Params, feet: Sequence[str]) -> AidedFeet | ComparedFeet:
+    """Return who hears what comes beside: aided by it, or compared with it, as `external.mode` says."""
+    return AidedFeet(params, feet) if params.external.mode == "aid" else ComparedFeet(params, feet)
 
 
 def keep(output: BothOutput, books: Mapping[str, Book], body: BodyBook) -> None:
@@ -52,16 +66,9 @@ def keep(output: BothOutput, books: Mapping[str, Book], body: BodyBook) -> None:
     body.keep(output.body)
 
 
-def in_turn(feet: Sequence[Sensor]) -> Iterator[tuple[str, ImuBlock | None]]:
-    """Yield pieces of the foot that is behind, by the time since its own first sample; None: it has no more."""
-    readers = {foot.name: foot.pieces(PIECE) for foot in feet}
-    first_ns: dict[str, int] = {}
-    reached_ns: dict[str, float] = dict.fromkeys(readers, -math.inf)
-    while readers:
-        foot = min(readers, key=lambda name: reached_ns[name])
-        piece = next(readers[foot], None)
-        yield foot, piece
-        if piece is None:
-            del readers[foot]
-        else:
-            reached_ns[foot] = int(piece.stamp_ns[-1]) - first_ns.setdefault(foot, int(piece.stamp_ns[0]))
+def lay_on_map(out: Path, feet: Sequence[str], heard: AidedFeet | ComparedFeet) -> None:
+    """Write the trajectories of the body and of both feet once more, in their frame, if it is known."""
+    frames = {BODY: heard.comparison.frame} | {foot: heard.frame_of(foot) for foot in feet}
+    for name, frame in frames.items():
+        if frame:
+            write_on_map(out / name, frame)

@@ -1,6 +1,6 @@
 """Estimates a recording beside somebody else's odometry in the same bag: compared with it, or aided by it."""
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from contextlib import ExitStack
 
 from pdr_bringup_scripts.book import Book
@@ -9,13 +9,13 @@ from pdr_bringup_scripts.offline import Watch
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.run_options import RunOptions
 from pdr_bringup_scripts.terminal import Terminal
+from pdr_bringup_scripts.turns import Beside, in_turn
 from pdr_core.evaluation.external import External
 from pdr_core.evaluation.result import Result
 from pdr_core.params import Params
 from pdr_core.pipeline import AidedFoot, ComparedFoot
 from pdr_core.recording import Arrivals, Sensor, Session
-from pdr_core.records import ImuBlock, length, part
-from pdr_core.records_external import FixBlock
+from pdr_core.records import length
 from pdr_core.warmup import warm_up
 
 AIDED, COMPARED = "aided_foot", "compared_foot"
@@ -26,19 +26,16 @@ def run_external(session: Session, sensor: Sensor, params: Params, options: RunO
 
     Problem if the recording has no topics.
     """
-    aids, come = params.external.mode == "aid", come_beside(session, sensor, options)
+    aids, come = params.external.mode == "aid", come_beside(session, [sensor], options)
     warm_up(params, both=aids)
     watch, pipeline = Watch(), AidedFoot(params) if aids else ComparedFoot(params)
     with ExitStack() as stack:
         book, samples = Book(session, sensor, options.out, stack), 0
         with Terminal().progress(f"Estimating {sensor.name}") as show:
-            for piece, fixes in in_turn(sensor, come):
-                book.keep(watch(pipeline.run, piece))
-                if fixes:
-                    pipeline.fixes(fixes)
-                samples += length(piece)
+            for _, piece in in_turn([sensor], Beside(come, pipeline.fixes)):
+                book.keep(watch(pipeline.run, piece) if piece else pipeline.finish())
+                samples += length(piece) if piece else 0
                 show(f"{book.track.duration_s:.0f} s of the recording, {len(book.steps)} strides")
-            book.keep(pipeline.finish())
         external = External(options.external, aids, pipeline.comparison)
         name = AIDED if aids else COMPARED
         result = book.close(name, params, samples, watch.seconds, pipeline.notices, external=external)
@@ -47,21 +44,10 @@ def run_external(session: Session, sensor: Sensor, params: Params, options: RunO
     return result
 
 
-def come_beside(session: Session, sensor: Sensor, options: RunOptions) -> Arrivals:
+def come_beside(session: Session, sensors: Sequence[Sensor], options: RunOptions) -> Arrivals:
     """Return what comes beside the samples; Problem if it is a topic, and the recording has none."""
     if options.at:
-        return arrivals_of(options.at, sensor)
+        return arrivals_of(options.at, sensors)
     if session.arrivals is None:
         raise Problem(f"{session.path} has no topics: --external needs a bag that holds both")
-    return session.arrivals(sensor.name, options.external)
-
-
-def in_turn(sensor: Sensor, come: Arrivals) -> Iterator[tuple[ImuBlock, FixBlock | None]]:
-    """Yield the samples in pieces, each with the fixes that stand after it in the file, or None."""
-    done, told = 0, 0
-    for piece in sensor.pieces():
-        first, last = done, done + length(piece)
-        for count in sorted({int(n) for n in come.after_samples if first < n < last} | {last}):
-            reached = int((come.after_samples <= count).sum())
-            yield part(piece, done - first, count - first), part(come.fixes, told, reached) if reached > told else None
-            done, told = count, reached
+    return session.arrivals([sensor.name for sensor in sensors], options.external)

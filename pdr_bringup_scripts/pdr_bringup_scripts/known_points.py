@@ -11,6 +11,7 @@ from pdr_bringup_scripts.problems import Problem
 from pdr_core.conventions import nanoseconds
 from pdr_core.recording import Arrivals, Sensor
 from pdr_core.recording.tum import append_tum, in_frame, read_tum, write_tum_header
+from pdr_core.records import Stamps
 from pdr_core.records_external import ExternalFrame, FixBlock, unknown_yaws
 
 NUMBER = r"([-+]?\d+\.?\d*)"
@@ -34,19 +35,26 @@ def known_point(text: str) -> KnownPoint:
     return KnownPoint(*map(float, found.groups()))
 
 
-def arrivals_of(points: Sequence[KnownPoint], sensor: Sensor) -> Arrivals:
-    """Return the points as they would have come; Problem if the recording ends before one."""
-    told = sorted(points)
-    stamps = np.concatenate([piece.stamp_ns for piece in sensor.pieces()])
-    if not len(stamps):
-        return Arrivals(FixBlock(stamps, np.zeros((0, 3)), np.zeros((0, 3)), unknown_yaws(0)), stamps)
-    at_ns = int(stamps[0]) + np.array([nanoseconds(point.at_s) for point in told], np.int64)
-    if at_ns[-1] > stamps[-1] or at_ns[0] < stamps[0]:
-        length_s = (stamps[-1] - stamps[0]) * 1e-9
-        raise Problem(f"--at {told[-1].at_s:g}: the recording of {sensor.name} lasts {length_s:.1f} s")
-    places_m = np.array([[point.x_m, point.y_m, 0.0] for point in told])
-    fixes = FixBlock(at_ns, places_m, np.zeros((len(told), 3)), unknown_yaws(len(told)))
-    return Arrivals(fixes, np.searchsorted(stamps, at_ns, side="right"))
+def arrivals_of(points: Sequence[KnownPoint], sensors: Sequence[Sensor]) -> Arrivals:
+    """Return the points as they would have come, each sensor's time counted from its own first sample.
+
+    They are stamped as the first sensor is; Problem if its recording ends before one.
+    """
+    stamps = [stamps_of(sensor) for sensor in sensors]
+    told = sorted(points) if all(map(len, stamps)) else []  # without samples there is nothing to lay anywhere
+    at_ns = np.array([nanoseconds(point.at_s) for point in told], np.int64)
+    first_ns, last_ns = stamps[0][[0, -1]] if told else (0, 0)
+    if told and (at_ns[-1] > last_ns - first_ns or at_ns[0] < 0):
+        length_s = (last_ns - first_ns) * 1e-9
+        raise Problem(f"--at {told[-1].at_s:g}: the recording of {sensors[0].name} lasts {length_s:.1f} s")
+    places_m = np.array([[point.x_m, point.y_m, 0.0] for point in told]).reshape(-1, 3)
+    fixes = FixBlock(first_ns + at_ns, places_m, np.zeros((len(told), 3)), unknown_yaws(len(told)))
+    return Arrivals(fixes, np.column_stack([np.searchsorted(ns - ns[:1], at_ns, side="right") for ns in stamps]))
+
+
+def stamps_of(sensor: Sensor) -> Stamps:
+    """Return the stamps of all samples, (n,)."""
+    return np.concatenate([np.zeros(0, np.int64), *(piece.stamp_ns for piece in sensor.pieces())])
 
 
 def write_on_map(folder: Path, frame: ExternalFrame) -> None:

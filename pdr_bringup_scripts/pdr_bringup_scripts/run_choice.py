@@ -21,7 +21,7 @@ def estimated(session: Session, params: Params, options: RunOptions) -> Result |
     if not feet:
         return each_estimated(session, params, options)
     check_output(options.out, session)
-    return written(run_both(session, feet, params, options.out), options.out)
+    return written(run_both(session, feet, params, options), options.out)
 
 
 def each_estimated(session: Session, params: Params, options: RunOptions) -> Result | SensorsResult:

@@ -28,9 +28,15 @@ def show_calls(result: Result | SensorsResult) -> None:
 def files_of(result: Result | SensorsResult) -> str:
     """Return what a run has left in its folder."""
     if not isinstance(result, SensorsResult):
-        return f"{FILES}, {ON_MAP}" if result.external and result.external.comparison.frame else FILES
-    body = f"; in {BODY}: {BODY_FILES}" if result.body else ""
-    return f"result.json; in {', '.join(result.sensors)}: {FILES}{body}"
+        return f"{FILES}{on_map(result)}"
+    map_file = on_map(result.body)
+    body = f"; in {BODY}: {BODY_FILES}{map_file}" if result.body else ""
+    return f"result.json; in {', '.join(result.sensors)}: {FILES}{map_file}{body}"
+
+
+def on_map(result: Result | None) -> str:
+    """Return what a run has left beside, where somebody said where the track lies."""
+    return f", {ON_MAP}" if result and result.external and result.external.comparison.frame else ""
 
 
 def say(result: Result | SensorsResult, out: Path | None, json: bool) -> None:

@@ -25,8 +25,8 @@ class Alone(NamedTuple):
 
 WHOLE = ("--smooth", "--time-gate kmeans_offline")  # with these a run knows the whole recording beforehand
 RULES = (
-    Alone("--external", "goes with one foot as it walks", ("--pipeline chest", "--feet", "--adaptive", *WHOLE)),
-    Alone("--at", "lays one foot's track on a map", ("--external", "--pipeline chest", "--feet", "--adaptive", *WHOLE)),
+    Alone("--external", "goes with feet as they walk", ("--pipeline chest", "--adaptive", *WHOLE)),
+    Alone("--at", "lays the track of feet on a map", ("--external", "--pipeline chest", "--adaptive", *WHOLE)),
     Alone("--pipeline chest", "knows one sensor, and nothing beforehand", ("--feet", "--adaptive", *WHOLE)),
     Alone("--pipeline chest", "looks for no standing foot", ("--detector", "--time-gate", "--level-ground")),
     Alone("--feet", "estimates two feet together as they walk", ("--sensor", "--adaptive", *WHOLE)),
@@ -87,7 +87,7 @@ class RunOptions:
 
     @property
     def one_alone(self) -> bool:
-        """Tell whether it is about one sensor, to be named if there are several."""
+        """Tell whether it is about one sensor, or two feet, to be named if there are several."""
         return self.beside or self.pipeline == CHEST
 
     @property
@@ -98,7 +98,8 @@ class RunOptions:
     @property
     def each_alone(self) -> bool:
         """Tell whether every sensor is estimated for itself, feet too: no two walk together as the options say."""
-        return self.one_alone or self.sensor is not None or self.adaptive or self.hindsight != CAUSAL
+        named = self.sensor is not None or self.pipeline == CHEST
+        return named or self.adaptive or self.hindsight != CAUSAL
 
     def applied_to(self, params: Params) -> Params:
         """Return the parameters with what the options say of them."""

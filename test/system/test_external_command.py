@@ -51,7 +51,9 @@ def test_what_cannot_be_had_is_said(bag: Path, tmp_path: Path) -> None:
     nobody = pdr("run", bag, "--external", "/nobody")
     check_refused(nobody, "--external /nobody", "it has: /imu/ground_truth, /robot/pose")
     check_refused(pdr("run", bag, "--aid"), "--aid says what --external is for")
-    check_refused(pdr("run", bag, "--external", "/robot/pose", "--smooth"), "goes with one foot", "leave out --smooth")
+    check_refused(
+        pdr("run", bag, "--external", "/robot/pose", "--smooth"), "goes with feet as they walk", "leave out --smooth"
+    )
     csv = tmp_path / "walk.csv"
     assert pdr("convert", bag, csv).returncode == 0
     check_refused(pdr("run", csv, "--external", "/robot/pose"), "has no topics")

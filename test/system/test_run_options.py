@@ -40,8 +40,8 @@ def test_what_does_not_go_together_is_named_and_nothing_else(option: str, other:
 
 def test_a_walk_is_estimated_in_one_way_and_all_else_goes_together() -> None:
     ways = ("--external", "--pipeline chest", "--feet", "--adaptive")
-    refused = {*combinations(ways, 2), *product(ways, WHOLE), ("--feet", "--sensor")}
-    refused |= {("--at", other) for other in (*ways, *WHOLE)}
+    refused = {*combinations(ways, 2), *product(ways, WHOLE), ("--feet", "--sensor")} - {("--external", "--feet")}
+    refused |= {("--at", other) for other in ("--external", "--pipeline chest", "--adaptive", *WHOLE)}
     refused |= set(product(["--pipeline chest"], ["--detector", "--time-gate", "--level-ground"]))
     assert set(PAIRS) == refused
     for one, other in combinations(TYPED, 2):
@@ -75,7 +75,7 @@ def test_an_option_chooses_the_pipeline(option: str, run: object) -> None:
     assert pipeline_of_one(RunOptions(**TYPED[option])) is run
 
 
-ONE_ALONE = ("--sensor", "--pipeline chest", "--adaptive", "--external", "--at", *WHOLE)
+ONE_ALONE = ("--sensor", "--pipeline chest", "--adaptive", *WHOLE)
 
 
 @pytest.mark.parametrize("option", TYPED)

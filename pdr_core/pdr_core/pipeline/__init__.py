@@ -7,6 +7,7 @@ from pdr_core.pipeline.aided_fusion import AidedFusion
 from pdr_core.pipeline.body_steps import BodySteps
 from pdr_core.pipeline.both_feet import BothFeet, BothOutput
 from pdr_core.pipeline.chest import ChestCard
+from pdr_core.pipeline.compared_feet import ComparedFeet
 from pdr_core.pipeline.compared_foot import ComparedFoot
 from pdr_core.pipeline.constrained_foot import ConstrainedFoot
 from pdr_core.pipeline.foot_adaptive import FootAdaptive
@@ -27,6 +28,7 @@ __all__ = [
     "BothFeet",
     "BothOutput",
     "ChestCard",
+    "ComparedFeet",
     "ComparedFoot",
     "ConstrainedFoot",
     "FootAdaptive",

@@ -7,7 +7,7 @@ from pdr_core.params import Params, changed
 from pdr_core.pipeline.aided_fusion import AidedFusion
 from pdr_core.pipeline.both_feet import BothFeet, BothOutput
 from pdr_core.records import ImuBlock, length
-from pdr_core.records_external import ExternalComparison, FixBlock
+from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock
 
 
 class AidedFeet(BothFeet):
@@ -16,7 +16,7 @@ class AidedFeet(BothFeet):
     def __init__(self, params: Params, feet: Sequence[str] = ("left", "right")) -> None:
         self._aided = AidedFusion(changed(params, "filter", heading_feedback=True), feet)
         super().__init__(params, feet, self._aided)
-        self._reached_ns = NO_STAMP
+        self._reached_ns = dict.fromkeys(feet, NO_STAMP)  # each on its own clock
 
     def fixes(self, fixes: FixBlock) -> None:
         """Take fixes that came after the samples so far."""
@@ -24,10 +24,15 @@ class AidedFeet(BothFeet):
 
     def run(self, foot: str, raw: ImuBlock) -> BothOutput:
         """Take the next samples of a foot, any number of them."""
-        self._reached_ns = int(raw.stamp_ns[-1]) if length(raw) else self._reached_ns
+        if length(raw):
+            self._reached_ns[foot] = int(raw.stamp_ns[-1])
         return super().run(foot, raw)
 
     @property
     def comparison(self) -> ExternalComparison:
         """Their frame from that of the body, and how far their fixes lie from the track of the first foot."""
         return self._aided.comparison
+
+    def frame_of(self, foot: str) -> ExternalFrame | None:
+        """Return their frame from that of a foot; None: not known yet."""
+        return self._aided.frame_of(foot)

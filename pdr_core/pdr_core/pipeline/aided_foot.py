@@ -24,7 +24,7 @@ class AidedFoot:
 
     def fixes(self, fixes: FixBlock) -> None:
         """Take fixes that came after the samples so far."""
-        self._fusion.fixes(fixes, self._reached_ns)
+        self._fusion.fixes(fixes, {FOOT: self._reached_ns})
 
     def run(self, raw: ImuBlock) -> FootOutput:
         """Take the next samples, any number of them."""

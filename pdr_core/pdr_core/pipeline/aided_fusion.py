@@ -4,13 +4,14 @@ Each foot has a world of its own, and so its own alignment: what their fixes say
 feet go on telling each other of their heading.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.external.aid import ExternalAid
+from pdr_core.external.worlds import ORIGIN_AND_X, from_another
 from pdr_core.params import Params
 from pdr_core.pipeline.heading_fusion import FusionOutput, HeadingFusion
 from pdr_core.records import (
@@ -23,7 +24,7 @@ from pdr_core.records import (
     StepEvent,
     length,
 )
-from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock, about_up
+from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock
 
 
 class AidedFusion:
@@ -35,10 +36,10 @@ class AidedFusion:
         self._steps: dict[tuple[str, int, int], StepEvent] = {}  # that were not answered yet
         self._last_ns = dict.fromkeys(feet, NO_STAMP)
 
-    def fixes(self, fixes: FixBlock, ours_ns: int | None = None) -> None:
-        """Take fixes; `ours_ns`: our stamps had reached this when they came; None: the last estimates."""
+    def fixes(self, fixes: FixBlock, reached_ns: Mapping[str, int] | None = None) -> None:
+        """Take fixes; `reached_ns`: the last stamp of each foot as they came; None: those of the last estimates."""
         for foot, aid in self._aids.items():
-            aid.take(fixes, self._last_ns[foot] if ours_ns is None else ours_ns)
+            aid.take(fixes, (reached_ns or self._last_ns)[foot])
 
     def step(self, foot: str, event: StepEvent) -> FusionOutput:
         """Take a step of a foot."""
@@ -70,7 +71,11 @@ class AidedFusion:
         found = aid.comparison
         if found.frame is None or len(self._aids) == 1:
             return found
-        return replace(found, frame=of_body(found.frame, self._fusion.placed_m(foot, ORIGIN_AND_X)))
+        return replace(found, frame=from_another(found.frame, self._fusion.placed_m(foot, ORIGIN_AND_X)))
+
+    def frame_of(self, foot: str) -> ExternalFrame | None:
+        """Return their frame from that of a foot, as it was aligned; None: not known yet."""
+        return self._aids[foot].frame
 
     @property
     def awaited_ns(self) -> dict[str, int]:
@@ -94,9 +99,6 @@ class AidedFusion:
         return replace(answer, position=both_known(answer.position, told.place))
 
 
-ORIGIN_AND_X = np.eye(3)[[2, 0]] * [1.0, 1.0, 0.0]
-
-
 def both_known(one: PositionError | None, other: PositionError | None) -> PositionError | None:
     """Return what two independent measurements of one error say together: their mean weighted by information."""
     if one is None or other is None:
@@ -104,13 +106,3 @@ def both_known(one: PositionError | None, other: PositionError | None) -> Positi
     first, second = np.linalg.inv(one.covariance_m2), np.linalg.inv(other.covariance_m2)
     covariance_m2 = np.linalg.inv(first + second)
     return PositionError(covariance_m2 @ (first @ one.error_m + second @ other.error_m), covariance_m2)
-
-
-def of_body(frame: ExternalFrame, placed_m: Floats) -> ExternalFrame:
-    """Return their frame from that of the body, by where origin and x axis of a foot's world lie in it, (2, 3)."""
-    ahead = placed_m[1] - placed_m[0]
-    turn_rad = float(np.arctan2(ahead[1], ahead[0]))
-    yaw_rad = frame.yaw_rad - turn_rad
-    about_m = about_up(turn_rad)[:2, :2] @ frame.about_m + placed_m[0, :2]
-    shift_m = frame.shift_m - about_up(yaw_rad) @ placed_m[0]
-    return ExternalFrame(yaw_rad, shift_m, frame.clock_ns, frame.covariance, about_m)

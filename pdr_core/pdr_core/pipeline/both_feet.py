@@ -51,7 +51,7 @@ class BothFeet:
     def finish(self) -> BothOutput:
         """Give out what still waits: there will be no more samples of either foot."""
         ends = [self.end(foot) for foot in self._feet if foot not in self._ended]
-        last = BothOutput([], self._fusion.finish().body)  # feet that have ended wait for no answer
+        last = self._known([], self._fusion.finish().body)  # feet that have ended wait for no answer
         return together([*ends, last])
 
     def placed_m(self, foot: str, position_m: Floats) -> Floats:
@@ -68,9 +68,13 @@ class BothFeet:
         outputs = []
         while new:
             told = together_told([self._told(foot, output) for foot, output in new])
-            outputs.append(BothOutput(new, told.body))
+            outputs.append(self._known(new, told.body))
             new = [(foot, self._feet[foot].answer(answer)) for foot, answer in told.answers]
         return together(outputs)
+
+    def _known(self, feet: list[tuple[str, FootOutput]], body: NavBlock) -> BothOutput:
+        """Return what became known; it passes here once."""
+        return BothOutput(feet, body)
 
     def _told(self, foot: str, output: FootOutput) -> FusionOutput:
         told = [self._fusion.step(foot, step) for step in output.steps]

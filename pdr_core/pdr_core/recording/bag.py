@@ -36,8 +36,8 @@ def open_bag_session(path: Path) -> Session:
     sensors = {name: Sensor(name, _truth(bag, t, truths), _reading(bag, t, fields)) for name, t in imus.items()}
     name = path.name if path.is_dir() else path.stem
 
-    def with_fixes(sensor: str, topic: str) -> Arrivals:
-        return arrivals(bag, imus[sensor], topic)
+    def with_fixes(sensors: Sequence[str], topic: str) -> Arrivals:
+        return arrivals(bag, [imus[sensor] for sensor in sensors], topic)
 
     return Session(name, path, FORMATS.get(files[0].suffix, "rosbag2"), sensors, notices, arrivals=with_fixes)
 

@@ -1,5 +1,6 @@
-"""Somebody else's positions beside the samples of a sensor in a bag, and when they came."""
+"""Somebody else's positions beside the samples of sensors in a bag, and when they came."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,21 +14,23 @@ WITH_COVARIANCE = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseWithCovarianc
 KINDS = WITH_COVARIANCE | {"geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"}
 
 
-def arrivals(bag: BagReader, imu_topic: str, topic: str) -> Arrivals:
-    """Return the fixes of a topic beside those of an Imu topic; RecordingError if it holds no positions."""
+def arrivals(bag: BagReader, imu_topics: Sequence[str], topic: str) -> Arrivals:
+    """Return the fixes of a topic beside the samples of Imu topics; RecordingError if it holds no positions."""
     from rosbags.typesys import Stores, get_typestore
 
     topics = bag.topics()
     if topics.get(topic) not in KINDS:
         known = ", ".join(sorted(name for name, kind in topics.items() if kind in KINDS)) or "none"
         raise RecordingError(f"--external {topic}: the recording holds no positions of that name; it has: {known}.")
-    decode, rows, counts, samples, damaged = get_typestore(Stores.ROS2_JAZZY).deserialize_cdr, [], [], 0, 0
-    for name, cdr in bag.messages_of([imu_topic, topic]):
-        samples += name == imu_topic
-        if name == topic:
+    decode, rows, counts, damaged = get_typestore(Stores.ROS2_JAZZY).deserialize_cdr, [], [], 0
+    samples = dict.fromkeys(imu_topics, 0)
+    for name, cdr in bag.messages_of([*imu_topics, topic]):
+        if name in samples:
+            samples[name] += 1
+        else:
             try:
                 rows.append(row(decode(cdr, topics[topic])))
-                counts.append(samples)
+                counts.append(list(samples.values()))
             except Exception:  # damaged bytes make rosbags raise anything
                 damaged += 1
     if damaged:
@@ -35,7 +38,7 @@ def arrivals(bag: BagReader, imu_topic: str, topic: str) -> Arrivals:
     stamps = np.array([at_ns for at_ns, *_ in rows], np.int64)
     numbers = np.array([values for _, values in rows], np.float64).reshape(-1, 7)
     fixes = FixBlock(stamps, numbers[:, :3], numbers[:, 3:6], numbers[:, 6])
-    return Arrivals(fixes, np.array(counts, np.int64))
+    return Arrivals(fixes, np.array(counts, np.int64).reshape(-1, len(samples)))
 
 
 def row(message: Any) -> tuple[int, list[float]]:

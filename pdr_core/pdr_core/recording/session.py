@@ -1,6 +1,6 @@
 """What an opened recording is: sensors that can be read in pieces, and notices that grow while they are read."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -15,7 +15,7 @@ class Arrivals(NamedTuple):
     """Somebody else's fixes in the order of the file."""
 
     fixes: FixBlock
-    after_samples: Stamps  # (n,) so many samples of the sensor stood before each
+    after_samples: Stamps  # (n, sensors) so many samples of each sensor stood before them
 
 
 class RecordingError(Exception):
@@ -45,7 +45,7 @@ class Session:
     sensors: dict[str, Sensor]
     notices: list[Notice] = field(default_factory=list)
     beside: Mapping[str, FixBlock] = field(default_factory=dict)  # somebody else's fixes by topic, to be written too
-    arrivals: Callable[[str, str], Arrivals] | None = None  # of a sensor and a topic of fixes; None: it has no topics
+    arrivals: Callable[[Sequence[str], str], Arrivals] | None = None  # of sensors and a topic; None: it has no topics
 
 
 def put_warning(notices: list[Notice], kind: str, text: str, count: int, first_stamp_ns: int) -> None:
