@@ -19,7 +19,7 @@ from functools import partial
 from pdr_core.conventions import NO_STAMP, nanoseconds
 from pdr_core.fusion import Watermark
 from pdr_core.fusion.body import placed_m
-from pdr_core.fusion.foot_rows import NO_ROWS, RESTART_NS, in_order, usable, worlds
+from pdr_core.fusion.foot_rows import NO_ROWS, RESTART_NS, in_order, lost_yaws_ns, usable, worlds
 from pdr_core.notices import Tally
 from pdr_core.params import Params
 from pdr_core.pipeline.body_track import BodyTrack
@@ -61,7 +61,7 @@ class HeadingFusion:
         self._certain: deque[tuple[str, Asked]] = deque()
         self._begin_clocks(feet, nanoseconds(params.fusion.clock_apart_s))
         self._last_rows: dict[str, NavBlock] = {}
-        self._new_worlds: list[tuple[str, int]] = []  # of filters started anew: foot, and its first stamp there
+        self._new_worlds: list[tuple[str, int]] = []  # of filters started anew or turned in a gap: foot, first stamp there
         self._pair = FootPair(params, feet)
         self._body = BodyTrack(feet, self._pair.frames, self._pair.gait)
         self._tally = Tally()
@@ -139,6 +139,7 @@ class HeadingFusion:
         if foot not in self._last_rows:
             self._pair.begin(foot, rows.position_m[0])
             self._body.teach(int(rows.stamp_ns[0]), self._pair.frames)
+        self._new_worlds += [(foot, lost_ns) for lost_ns in lost_yaws_ns(rows, self._last_rows.get(foot))]
         for is_another_world, piece in worlds(rows, self._last_rows.get(foot)):
             if is_another_world:
                 self._body.lose(foot, self._last_ns[foot])

@@ -28,7 +28,7 @@ class StepAnswers:
 
     def begin(self, foot: str) -> None:
         """Note that a foot's filter begins anew, in another world."""
-        self.dual.begin()
+        self.dual.begin(foot)
         self._shared[foot] = SharedYaw()
 
     def answer(self, foot: str, step: StepEvent) -> HeadingObservation:
