@@ -13,7 +13,9 @@ from pdr_core.records import Flags, Floats, NavBlock, Stamps, joined, length, pa
 RESTART_NS = NANOSECONDS  # a clock that jumps back by more is a new one, by less the row comes late
 
 NEVER_NS = 2**63 - 1
-LOST_YAW_RAD2 = 0.25  # a yaw known worse than by half a radian is lost, as after a gap in which a person may have turned
+LOST_YAW_RAD2 = (
+    0.25  # a yaw known worse than by half a radian is lost, as after a gap in which a person may have turned
+)
 STARTED_ANEW = 0.01  # the variance of the place falls below this share of what it was
 
 NO_ROWS = NavBlock(

@@ -43,7 +43,7 @@ class FootPair:
         self._frames.begin(foot, start_m)
 
     def begin_anew(self, foot: str, step: StepEvent, places: Places) -> bool:
-        """Find a foot whose filter was started anew, or is lost, by its next step; return whether the other is known."""
+        """Find a foot that is in another world, or lost, by its next step; return whether the other one is known."""
         other = next(
             (at for name, at in zip(self._feet, places(self.frames), strict=True) if at and name != foot), None
         )
