@@ -43,6 +43,17 @@ def test_a_foot_that_begins_later_while_the_person_stands_is_beside_the_other_al
     assert np.linalg.norm(off_m, axis=1).max() < 0.1
 
 
+def test_both_feet_may_be_lost_at_once_and_the_body_goes_on():
+    imus = samples(length_m=40.0)
+    t = (imus["left"].stamp_ns - START_NS) / 1e9
+    broken = {
+        foot: type(imu)(*(column[: len(t)][(t < 12.0) | (t > 14.0)] for column in imu)) for foot, imu in imus.items()
+    }
+    body = Together(broken).body
+    assert length(body) > 0.95 * length(broken["left"])
+    assert np.isfinite(body.position_m).all()
+
+
 @pytest.mark.parametrize("missing_s", [(0.0, 9.0), (6.0, 9.0)])
 def test_the_order_of_arrival_does_not_matter(missing_s):
     imus = samples()
