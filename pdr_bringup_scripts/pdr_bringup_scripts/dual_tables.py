@@ -115,4 +115,4 @@ def drift_deg(tracks: Sequence[FootTrack]) -> tuple[np.ndarray, np.ndarray]:
 
 def walking_direction(how: str, left: Curve, right: Curve) -> Curve:
     """Return the mean of both feet at the strides of the left one (eq. 6)."""
-    return Curve("walking direction", how, left.x, 0.5 * (left.y + np.interp(left.x, right.x, right.y)))
+    return Curve("direction", how, left.x, 0.5 * (left.y + np.interp(left.x, right.x, right.y)))

@@ -15,6 +15,11 @@ class Tally:
         total, first_ns = (known.count + count, known.first_stamp_ns) if known else (count, stamp_ns)
         self._notices[kind] = Notice(level, kind, text, total, first_ns)
 
+    def once(self, kind: str, level: Level, text: str, stamp_ns: int) -> None:
+        """Say it once, however often it is so."""
+        if kind not in self._notices:
+            self.add(kind, level, text, stamp_ns)
+
     def add_flagged(self, kind: str, level: Level, text: str, flags: Flags, stamps_ns: Stamps) -> None:
         """Count the samples that are flagged, (n,)."""
         if flags.any():

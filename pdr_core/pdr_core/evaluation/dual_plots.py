@@ -9,14 +9,14 @@ from pdr_core.records import Floats
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
-COLOURS = {"left": style.BLUE, "right": style.GREEN, "walking direction": style.PURPLE, "truth": style.ORANGE}
+COLOURS = {"left": style.BLUE, "right": style.GREEN, "direction": style.PURPLE, "truth": style.ORANGE}
 DASHES = {"alone": "dot", "together": "solid", "": "dash"}
 
 
 class Curve(NamedTuple):
     """A line or a cloud of points."""
 
-    what: str  # left, right, walking direction or truth
+    what: str  # left, right, direction (in which the person walks) or truth
     how: str  # alone, together; empty: the truth
     x: Floats  # (n,)
     y: Floats  # (n,)

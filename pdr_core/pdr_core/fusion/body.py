@@ -133,13 +133,14 @@ def combined(left: Moved, right: Moved, left_known: bool, right_known: bool, gai
     """Return the body between two feet, of which one at least is known."""
     g = preference(left, right, left_known, right_known, gait)
     u = standing_share(left, right, left_known, right_known)
+    v = yaw_share(u, left, right)
     of_left, of_right = (
-        np.array([0.5 + 0.5 * g, 0.5 + 0.5 * g, u, u]),
-        np.array([0.5 - 0.5 * g, 0.5 - 0.5 * g, 1 - u, 1 - u]),
+        np.array([0.5 + 0.5 * g, 0.5 + 0.5 * g, u, v]),
+        np.array([0.5 - 0.5 * g, 0.5 - 0.5 * g, 1 - u, 1 - v]),
     )
     turn = left.pose[YAW] - right.pose[YAW]
     pose = of_left * left.pose + of_right * right.pose
-    pose[YAW] = right.pose[YAW] + u * (turn - 2.0 * np.pi * np.round(turn / (2.0 * np.pi)))
+    pose[YAW] = right.pose[YAW] + v * (turn - 2.0 * np.pi * np.round(turn / (2.0 * np.pi)))
     pose[X] += 0.5 * g * gait.width_m * np.sin(pose[YAW])
     pose[Y] -= 0.5 * g * gait.width_m * np.cos(pose[YAW])
     share = 0.5 + 0.5 * g
@@ -177,6 +178,14 @@ def standing_share(left: Moved, right: Moved, left_known: bool, right_known: boo
     if not (left_known and right_known):
         return 1.0 if left_known else 0.0
     of_left, of_right = stands(left), stands(right)
+    return of_left / (of_left + of_right)
+
+
+@compiled
+def yaw_share(standing: float, left: Moved, right: Moved) -> float:
+    """Return how much the left foot counts for the yaw: the standing foot, and the one whose yaw is known better."""
+    of_left = standing * right.pose_covariance[YAW, YAW]
+    of_right = (1.0 - standing) * left.pose_covariance[YAW, YAW]
     return of_left / (of_left + of_right)
 
 

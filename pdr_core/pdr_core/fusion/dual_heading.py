@@ -70,6 +70,7 @@ class DualHeading:
     def __init__(self, params: FusionParams, feet: Sequence[str]) -> None:
         self._params = params
         self._feet = {foot: self._fresh() for foot in feet}
+        self._shares = dict.fromkeys(feet, 0.5)  # of what turns their worlds against each other
 
     def _fresh(self) -> DualFoot:
         p = self._params
@@ -78,19 +79,21 @@ class DualHeading:
     def step(self, foot: str, step: StepEvent) -> Correction | None:
         """Take a step; return by how much its foot is turned too far, beyond what it has taken; None: unknown."""
         one, other = self._follow(foot, step), self._other(foot)
-        if other and self._straight(one, other, step):
+        together = other is not None and walk_together(step, other.last)
+        if other and together and one.headings.straight and other.headings.straight:
             one.toe_rad = one.headings.toe_rad
             if one.error is None:
                 one.error = self._begun(one, other)
             else:
                 self._measure(one, other, one.error)
-        elif other and not one.measured and one.headings.known and other.headings.known:
+        elif other and together and not one.measured and len(one.headings):
             self._guess(one, other)
         return self._correction(one)
 
-    def begin(self) -> None:
-        """Forget what is known: a foot is in another world."""
+    def begin(self, lost: str) -> None:
+        """Forget what is known: a foot is in another world, and the other one's stays where it is."""
         self._feet = {foot: self._fresh() for foot in self._feet}
+        self._shares = {foot: float(foot == lost) for foot in self._feet}
 
     def turned_back(self, foot: str, turn_rad: float) -> None:
         """Note that the filter of a foot has turned its track back."""
@@ -109,15 +112,13 @@ class DualHeading:
     def _other(self, foot: str) -> DualFoot | None:
         return next((other for name, other in self._feet.items() if name != foot), None)
 
-    def _straight(self, one: DualFoot, other: DualFoot, step: StepEvent) -> bool:
-        """Tell whether both feet walk, and straight on."""
-        together = other.last is not None and step.start_ns < other.last.stamp_ns <= step.stamp_ns
-        return together and one.headings.straight and other.headings.straight
-
     def _guess(self, one: DualFoot, other: DualFoot) -> None:
-        """Until they have walked straight, take it that they went where they went together from the start."""
+        """Until they have walked straight, take it that they went where their latest strides went together."""
+        strides = min(len(one.headings) - 1, len(other.headings)) or 1
+        if not len(other.headings):
+            return
         one.toe_rad = one.headings.toe_rad
-        one.start_rad = deviation_rad(one.headings.mean_rad(), other.headings.mean_rad())
+        one.start_rad = deviation_rad(one.headings.mean_rad(strides + 1), other.headings.mean_rad(strides))
         one.start_sd_rad = GUESS_SD_RAD
         other.start_rad, other.start_sd_rad = -one.start_rad, GUESS_SD_RAD
 
@@ -162,8 +163,14 @@ class DualHeading:
         one, other = self._feet[foot], self._other(foot)
         if not other:
             return None
-        turn_rad = -0.5 * wrapped_rad(one.start_rad - other.start_rad)
-        return KnownFrame(turn_rad, math.sqrt(0.5) * math.hypot(one.start_sd_rad, other.start_sd_rad), one.toe_rad)
+        share, sd_rad = self._shares[foot], math.hypot(one.start_sd_rad, other.start_sd_rad)
+        turn_rad = -share * wrapped_rad(one.start_rad - other.start_rad)
+        return KnownFrame(turn_rad, 2.0 * share * math.sqrt(0.5) * sd_rad, one.toe_rad)
+
+
+def walk_together(step: StepEvent, other: StepEvent | None) -> bool:
+    """Tell whether the latest stride of the other foot ended within this one."""
+    return other is not None and step.start_ns < other.stamp_ns <= step.stamp_ns
 
 
 def deviation_rad(heading_rad: float, other_rad: float) -> float:

@@ -13,6 +13,7 @@ from pdr_core.records import Flags, Floats, NavBlock, Stamps, joined, length, pa
 RESTART_NS = NANOSECONDS  # a clock that jumps back by more is a new one, by less the row comes late
 
 NEVER_NS = 2**63 - 1
+LOST_YAW_RAD2 = 0.25  # half a radian: a row with which the yaw becomes so much less known ends a gap
 STARTED_ANEW = 0.01  # the variance of the place falls below this share of what it was
 
 NO_ROWS = NavBlock(
@@ -160,3 +161,12 @@ def worlds(rows: NavBlock, before: NavBlock | None) -> Iterator[tuple[bool, NavB
     starts = [0, *(i for i in np.flatnonzero(anew).tolist() if i > 0), length(rows)]
     for start, stop in pairwise(starts):
         yield bool(anew[start]), part(rows, start, stop)
+
+
+def lost_yaws_ns(rows: NavBlock, before: NavBlock | None) -> list[int]:
+    """Return the stamps of the rows with which the yaw gets lost, as in a gap in which a person may have turned."""
+    variance_rad2 = rows.pose_covariance[:, 5, 5]
+    last_rad2 = before.pose_covariance[0, 5, 5] if before else variance_rad2[0]
+    earlier_rad2 = np.concatenate([[last_rad2], variance_rad2[:-1]])
+    lost: Stamps = rows.stamp_ns[variance_rad2 > earlier_rad2 + LOST_YAW_RAD2]
+    return lost.tolist()

@@ -44,10 +44,9 @@ class StrideHeadings:
             self._starts_ns.append(step.start_ns)
         self._last_ns, self._last_yaw_rad = step.stamp_ns, step.yaw_rad
 
-    @property
-    def known(self) -> bool:
-        """There is one."""
-        return bool(self._headings_rad)
+    def __len__(self) -> int:
+        """Return how many there are, six at most."""
+        return len(self._headings_rad)
 
     @property
     def straight(self) -> bool:

@@ -18,15 +18,17 @@ from pdr_core.records import HeadingObservation, Level, Notice, StepEvent, empty
 ON = "the heading constraint is on ({}): where straight lines do not have the directions it takes, it turns the track"
 UNKNOWN_YAW_SD_RAD = 1.0  # with a yaw known no better, no direction can be told from another
 HELD = "strides by which the heading constraint has told the filter its yaw"
+FIXED = "the heading constraint can tell nothing to a filter that does not estimate its yaw: set filter.heading_states"
 
 
 class HeadingConstraint:
     """Holds the heading of one foot on straight lines; in curves it says nothing, and after them it begins anew."""
 
-    def __init__(self, params: HeadingParams) -> None:
+    def __init__(self, params: HeadingParams, tally: Tally | None = None) -> None:
+        """Feet of one person share a `tally`."""
         self._params = params
         self._last: StepEvent | None = None
-        self._tally = Tally()
+        self._tally = tally or Tally()
         self._begin()
 
     def _begin(self) -> None:
@@ -53,7 +55,7 @@ class HeadingConstraint:
         """Begin anew where the steps do; a clock that has jumped back, and a step that was lost, end the line alone."""
         last, self._last = self._last, step
         if last is None:
-            self._tally.add("heading_on", Level.WARN, ON.format(self._params.constraint), step.stamp_ns)
+            self._tally.once("heading_on", Level.WARN, ON.format(self._params.constraint), step.stamp_ns)
         elif step.index <= last.index:
             self._begin()
         elif step.index != last.index + 1 or step.start_ns < last.stamp_ns:
@@ -65,6 +67,8 @@ class HeadingConstraint:
 
     def _measured(self, step: StepEvent, directions: Directions) -> YawMeasurement | None:
         """Return what the step tells of the yaw, if it is one of a straight line."""
+        if step.yaw_sd_rad == 0.0:
+            self._tally.once("heading_fixed", Level.WARN, FIXED, step.stamp_ns)
         heading_rad = step.yaw_rad if self._params.walking_direction == "foot" else step.heading_rad
         if not (isfinite(heading_rad) and isfinite(step.length_m) and 0.0 < step.yaw_sd_rad < UNKNOWN_YAW_SD_RAD):
             self._break_off()

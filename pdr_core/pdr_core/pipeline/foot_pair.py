@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from pdr_core.fusion.body import YAW, Frame, Gait, Moved
+from pdr_core.fusion.foot_rows import LOST_YAW_RAD2
 from pdr_core.fusion.frames import FootFrames
 from pdr_core.fusion.separation import Reach, place_error
 from pdr_core.fusion.sides import Sides
@@ -43,11 +44,11 @@ class FootPair:
         self._frames.begin(foot, start_m)
 
     def begin_anew(self, foot: str, step: StepEvent, places: Places) -> bool:
-        """Find a foot whose filter was started anew by its first step; return whether the other one is known."""
+        """Find a foot that is lost, or in another world, by its next step; return whether the other knows better."""
         other = next(
             (at for name, at in zip(self._feet, places(self.frames), strict=True) if at and name != foot), None
         )
-        if other is None:
+        if other is None or other.pose_covariance[YAW, YAW] > max(LOST_YAW_RAD2, 0.25 * step.yaw_sd_rad**2):
             return False
         frames = {name: self.frame(name) for name in self._feet}
         self._answers.begin(foot)

@@ -16,21 +16,23 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from pdr_core.conventions import NO_STAMP, nanoseconds
+from pdr_core.conventions import NANOSECONDS, NO_STAMP, nanoseconds
 from pdr_core.fusion import Watermark
 from pdr_core.fusion.body import placed_m
-from pdr_core.fusion.foot_rows import NO_ROWS, RESTART_NS, in_order, usable, worlds
+from pdr_core.fusion.foot_rows import NEVER_NS, NO_ROWS, RESTART_NS, in_order, lost_yaws_ns, usable, worlds
 from pdr_core.notices import Tally
 from pdr_core.params import Params
 from pdr_core.pipeline.body_track import BodyTrack
 from pdr_core.pipeline.clocks import Clocks
-from pdr_core.pipeline.foot_pair import FootPair
+from pdr_core.pipeline.foot_pair import FootPair, Places
 from pdr_core.records import Floats, HeadingObservation, Level, NavBlock, Notice, StepEvent, joined, length, part
 
 NO_NUMBER = "estimates of a foot hold NaN or infinity: left out"
 CLOCK_BACK = "the clock of a foot has jumped back: the fusion of the feet begins anew"
 CLOCKS_APART = "the clocks of the feet count from different moments: aligned by the stamps that came together"
 NOT_ASKED = "a foot does not wait for its heading observations: set filter.heading_feedback"
+
+TOGETHER_NS = 3 * NANOSECONDS  # who begins no later finds the other foot in its first rest
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ class HeadingFusion:
         self._certain: deque[tuple[str, Asked]] = deque()
         self._begin_clocks(feet, nanoseconds(params.fusion.clock_apart_s))
         self._last_rows: dict[str, NavBlock] = {}
-        self._new_worlds: list[tuple[str, int]] = []  # of filters started anew: foot, and its first stamp there
+        self._new_worlds: list[tuple[str, int]] = []  # feet that must be found, and since when
         self._pair = FootPair(params, feet)
         self._body = BodyTrack(feet, self._pair.frames, self._pair.gait)
         self._tally = Tally()
@@ -137,8 +139,11 @@ class HeadingFusion:
     def _rows(self, foot: str, own: NavBlock) -> FusionOutput:
         rows = own._replace(stamp_ns=own.stamp_ns + self._clocks.shift_ns[foot])
         if foot not in self._last_rows:
+            self._first_ns[foot] = int(rows.stamp_ns[0])
             self._pair.begin(foot, rows.position_m[0])
-            self._body.teach(int(rows.stamp_ns[0]), self._pair.frames)
+            self._body.teach(self._first_ns[foot], self._pair.frames)
+            self._doubt_late()
+        self._new_worlds += [(foot, lost_ns) for lost_ns in lost_yaws_ns(rows, self._last_rows.get(foot))]
         for is_another_world, piece in worlds(rows, self._last_rows.get(foot)):
             if is_another_world:
                 self._body.lose(foot, self._last_ns[foot])
@@ -147,6 +152,21 @@ class HeadingFusion:
             self._last_ns[foot] = int(piece.stamp_ns[-1])
             self._last_rows[foot] = part(piece, length(piece) - 1)
         return self._output(self._steps.advance(foot, self._last_ns[foot]))
+
+    def _doubt_late(self) -> None:
+        """Take it that nobody knows where a foot is that begins later than the other one, until it has made a step."""
+        earliest_ns = min(self._first_ns.values())
+        for foot, first_ns in self._first_ns.items():
+            if first_ns > earliest_ns + TOGETHER_NS:
+                self._body.lose(foot, first_ns - 1)
+                self._new_worlds.append((foot, first_ns))
+
+    def _found(self, foot: str, step: StepEvent, places: Places) -> bool:
+        """Find a foot by its step; one that began before the other one walked is where it was taken to be."""
+        first_ns = self._first_ns.get(foot, NO_STAMP)
+        others_ns = min((ns for name, ns in self._walks_ns.items() if name != foot), default=NEVER_NS)
+        stood = [ns for name, ns in self._new_worlds if name == foot] == [first_ns] and others_ns >= first_ns
+        return stood or self._pair.begin_anew(foot, step, places)
 
     def _leave(self, foot: str) -> FusionOutput:
         self._body.leave(foot)
@@ -173,6 +193,8 @@ class HeadingFusion:
             self._tally.add("clocks_apart", Level.WARN, CLOCKS_APART, stamp_ns)
 
     def _begin_clocks(self, feet: Sequence[str], apart_ns: int) -> None:
+        self._first_ns: dict[str, int] = {}  # of feet that came by these clocks
+        self._walks_ns: dict[str, int] = {}  # since when
         self._clocks = Clocks(feet, apart_ns)
         self._own_ns = dict.fromkeys(feet, NO_STAMP)  # the last estimates, on the clock of the foot
         self._last_ns = dict.fromkeys(feet, NO_STAMP)  # and on the common one
@@ -189,9 +211,10 @@ class HeadingFusion:
         step = asked.step
         places = partial(self._body.places, step.stamp_ns)
         worlds_ns = [start_ns for name, start_ns in self._new_worlds if name == foot and start_ns < step.stamp_ns]
-        if worlds_ns and self._pair.begin_anew(foot, step, places):
+        if worlds_ns and self._found(foot, step, places):
             self._new_worlds = [(name, ns) for name, ns in self._new_worlds if name != foot or ns not in worlds_ns]
             self._body.find(foot, step.answer_due_ns)
+        self._walks_ns.setdefault(foot, step.start_ns)
         answer = self._pair.answer(foot, step, places)
         self._body.teach(step.answer_due_ns, self._pair.frames)
         return foot, replace(answer, step_ns=asked.own.stamp_ns, applies_from_ns=asked.own.answer_due_ns)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from pdr_core.fusion.dual_heading import DualHeading
 from pdr_core.fusion.shared_yaw import Equivalent, SharedYaw
 from pdr_core.heading import HeadingConstraint
+from pdr_core.notices import Tally
 from pdr_core.params import Params
 from pdr_core.records import HeadingObservation, HeadingSource, Notice, StepEvent
 
@@ -19,14 +20,15 @@ class StepAnswers:
     """Answers the steps of one foot or two, which it must be given in order."""
 
     def __init__(self, params: Params, feet: Sequence[str]) -> None:
-        self._constraints = {foot: HeadingConstraint(params.heading) for foot in feet}
+        self._tally = Tally()
+        self._constraints = {foot: HeadingConstraint(params.heading, self._tally) for foot in feet}
         self._weighs: bool = params.filter.heading_states
         self.dual = DualHeading(params.fusion, feet)
         self._shared = {foot: SharedYaw() for foot in feet}
 
     def begin(self, foot: str) -> None:
         """Note that a foot's filter begins anew, in another world."""
-        self.dual.begin()
+        self.dual.begin(foot)
         self._shared[foot] = SharedYaw()
 
     def answer(self, foot: str, step: StepEvent) -> HeadingObservation:
@@ -57,7 +59,7 @@ class StepAnswers:
     @property
     def notices(self) -> list[Notice]:
         """What the constraints have to say."""
-        return [notice for constraint in self._constraints.values() for notice in constraint.notices]
+        return self._tally.notices
 
 
 def merged(answer: HeadingObservation, other: Equivalent) -> HeadingObservation:

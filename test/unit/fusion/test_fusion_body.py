@@ -43,6 +43,11 @@ def test_the_body_looks_where_the_person_goes_not_where_feet_point():
     assert abs(yaw_of(across)[0]) == pytest.approx(np.pi, abs=1e-6)
 
 
+def test_a_foot_whose_yaw_is_lost_does_not_turn_the_body():
+    out = body(rows([1.0], yaw_rad=0.5), rows([1.0], yaw_rad=2.0, yaw_sd_rad=2.5))
+    assert yaw_of(out)[0] == pytest.approx(0.5, abs=0.01)
+
+
 def test_the_floor_is_where_the_standing_foot_is():
     standing, swinging = rows([1.0], [[0, 0, 0.17]]), rows([1.0], [[0, 0, 0.4]], velocity_mps=[4.0, 0, 0])
     assert body(standing, swinging).position_m[0, 2] == pytest.approx(0.17, abs=0.005)

@@ -30,6 +30,25 @@ def test_mounting_and_toe_out_are_frames_and_no_error():
     assert np.abs(taken["left"]).max() < 1e-6
 
 
+def test_a_lost_foot_turns_its_own_frame_alone():
+    stage = DualHeading(FusionParams(), ("left", "right"))
+    stage.begin("right")
+    for foot, event in in_turn(*walk(np.full(STRIDES, 0.1), np.full(STRIDES, 0.5))):
+        stage.step(foot, event)
+    assert stage.known("left").turn_rad == 0.0
+    assert stage.known("left").sd_rad == 0.0
+    assert stage.known("right").turn_rad == pytest.approx(-0.4, abs=1e-6)
+
+
+def test_strides_of_different_times_show_no_frame():
+    """The right foot is lost after four strides of a curve, and the left one walks on in it."""
+    lefts, rights = walk(0.5 * TIMES[:12], 0.5 * (TIMES[:4] + 0.5))
+    stage = DualHeading(FusionParams(), ("left", "right"))
+    for foot, event in in_turn(lefts, rights):
+        stage.step(foot, event)
+    assert stage.known("left").turn_rad == pytest.approx(0.0, abs=1e-6)
+
+
 def test_mirrored_drift_is_taken_back_and_nothing_twice():
     drift_rad = DRIFT_RAD * TIMES
     stage, taken = corrected(-0.1 + drift_rad, 0.1 - drift_rad)

@@ -5,8 +5,8 @@ import pytest
 from fusion_cases import rows
 
 from pdr_core.conventions import NO_STAMP
-from pdr_core.fusion.foot_rows import FootRows, in_order, usable, worlds
-from pdr_core.records import joined, length
+from pdr_core.fusion.foot_rows import FootRows, in_order, lost_yaws_ns, usable, worlds
+from pdr_core.records import joined, length, part
 
 
 def nanoseconds(stamp_s):
@@ -61,6 +61,15 @@ def test_a_filter_that_was_started_anew_is_in_another_world():
     assert [(another, length(piece)) for another, piece in found] == [(False, 2), (True, 2)]
     assert [another for another, _ in worlds(anew, far)] == [True]
     assert [another for another, _ in worlds(far, rows([0.9], sd_m=0.4))] == [False]
+
+
+def test_a_yaw_is_lost_in_a_gap_and_not_by_and_by():
+    variance_rad2 = np.array([0.01, 0.02, 5.0, 5.01, 0.1, 0.2, 0.3, 0.4])
+    found = rows(np.arange(8.0))
+    found.pose_covariance[:, 5, 5] = variance_rad2
+    assert lost_yaws_ns(found, None) == [2_000_000_000]
+    assert lost_yaws_ns(part(found, 2), part(found, 1, 2)) == [2_000_000_000]
+    assert lost_yaws_ns(part(found, 2), None) == []
 
 
 def test_a_lost_foot_is_unknown_until_it_is_found():

@@ -56,6 +56,14 @@ def test_the_notices_warn_that_it_is_on_and_count_the_strides(name: str) -> None
     assert used
 
 
+def test_a_filter_that_does_not_estimate_its_yaw_is_named() -> None:
+    """As the one of 11 states: it says that its yaw is known without any doubt."""
+    stage = constraint("dominant")
+    assert said(answers(stage, repeated(10.0, 20), yaw_sd_rad=0.0)) == []
+    on, fixed = stage.notices
+    assert (on.kind, fixed.kind, fixed.level, fixed.count) == ("heading_on", "heading_fixed", Level.WARN, 1)
+
+
 def test_a_line_is_held_in_the_direction_in_which_it_began() -> None:
     found = drifting(constraint("dominant"), [30.0] * 5 + [31.0] * 5)
     assert said(found) == [5, 6, 7, 8, 9, 10]

@@ -85,7 +85,7 @@ def test_a_constraint_and_the_other_foot_speak_together():
     """The constraint holds the direction that both share, the feet each other's."""
     held = changed(Params(), "heading", constraint="dominant")
     found = Together(samples(**STRAIGHT), held)
-    assert "heading_held" in found.kinds
+    assert found.kinds == ["heading_on", "heading_held"]
     off_m = found.body.position_m[-1] - midway_m(feet_walks(**STRAIGHT), found.body.stamp_ns)[-1]
     assert np.linalg.norm(off_m[:2]) < 1.0
 
