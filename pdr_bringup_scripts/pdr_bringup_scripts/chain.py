@@ -13,10 +13,9 @@ import yaml
 
 from pdr_bringup_scripts.problems import Problem
 
-INGESTION = "imu_ingestion"
-NODES = (INGESTION, "stance_detector", "zupt_ekf")
-ADAPTIVE = (INGESTION, "stance_detector", "gait_dr", "mode_manager")  # of a foot whose gyro is switched
-ON_CHEST = (INGESTION, "chest_pdr")  # of a card on the chest
+NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
+ADAPTIVE = ("imu_ingestion", "stance_detector", "gait_dr", "mode_manager")  # of a foot whose gyro is switched
+ON_CHEST = ("imu_ingestion", "chest_pdr")  # of a card on the chest
 DRIVER = "imu_driver"
 QUICK_DISCOVERY = Path(__file__).with_name("fastdds_quick.xml")
 GRACE_S = 5.0
@@ -63,11 +62,6 @@ class Chain:
         for process in self._processes.values():
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
-
-    @property
-    def takes_samples(self) -> bool:
-        """It is the chain of a sensor."""
-        return INGESTION in self._processes
 
     @property
     def has_driver(self) -> bool:

@@ -31,9 +31,9 @@ class Chains:
         self._stack.close()
 
     def end_feet(self) -> None:
-        """Ask the chains of the sensors to end: what waits for a foot need wait no longer."""
+        """Ask the chains of the drivers to end: what waits for a foot need wait no longer."""
         for chain in self._chains:
-            if chain.takes_samples:
+            if chain.has_driver:
                 chain.interrupt()
 
     @property

@@ -12,9 +12,7 @@ from pdr_bringup_scripts.interrupt import Interrupt
 from pdr_bringup_scripts.judging import BAG, judge
 from pdr_bringup_scripts.listener import Ears
 from pdr_bringup_scripts.live import (
-    AFTERWARDS_S,
     Watch,
-    listen_for,
     make_run_folder,
     new_recording,
     quiet_for_good_s,
@@ -25,6 +23,7 @@ from pdr_bringup_scripts.terminal import Terminal
 from pdr_core.evaluation.result import Result, SensorsResult
 from pdr_core.pipeline import ChestCard
 from pdr_core.warmup import warm_up
+from pdr_nodes.heading_fusion_node import patience_s
 
 PATIENCE_S = 5.0  # without a sample, before we say so
 REMINDER_S = 30.0
@@ -69,7 +68,7 @@ def record(cast: Cast, job: LiveJob, out: Path, terminal: Terminal) -> None:
         ]
         chains = stack.enter_context(cast.chains(out / "nodes", job.namespace, job.own_driver, remapped(job)))
         begin, silences = time.monotonic(), [Silence(relay, terminal) for relay in relays]
-        quiet_s = quiet_for_good_s(cast)
+        quiet_s = quiet_after_all_s(cast)
         while not (
             interrupt.asked or over(job, relays, begin) or (chains.drivers_are_done and watch.quiet_s > quiet_s)
         ):
@@ -85,9 +84,12 @@ def record(cast: Cast, job: LiveJob, out: Path, terminal: Terminal) -> None:
         while watch.quiet_s < quiet_s:
             ears.listen(0.1)
             chains.check()
-        if len(cast.feet) > 1:
-            chains.end_feet()
-            listen_for(ears, AFTERWARDS_S)
+
+
+def quiet_after_all_s(cast: Cast) -> float:
+    """Return the silence [s] after which nothing more is said: one foot may wait for another that has ended."""
+    waits_s = patience_s(cast.person.node) if cast.person and len(cast.feet) > 1 else 0.0
+    return quiet_for_good_s(cast) + waits_s
 
 
 def remapped(job: LiveJob) -> dict[str, dict[str, str]]:

@@ -70,6 +70,13 @@ def test_the_result_is_the_same(run, again):
     assert (live["pipeline"], offline["pipeline"]) == ("chest, live", "chest")
 
 
+def test_without_the_option_run_names_it(run):
+    answer = pdr("run", run[0] / "recording")
+    assert answer.returncode == 0, answer.stderr
+    assert "Error: no stance for " in answer.stdout
+    assert "Worn on the chest it needs `--pipeline chest`" in answer.stdout
+
+
 def test_the_samples_come_through_as_they_were(run, samples):
     (recorded,) = open_recording(run[0] / "recording").sensors.values()
     heard = joined(list(recorded.pieces()))

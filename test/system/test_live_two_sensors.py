@@ -11,14 +11,18 @@ from pdr_core.pipeline import FootInertial
 from pdr_core.rate_limit import RateLimit
 from pdr_core.recording import open_recording
 from pdr_core.recording.tum import read_tum
-from pdr_core.records import joined
+from pdr_core.records import joined, part
 from pdr_core.simulation import simulated_feet
 from support.feet import FEET
 from support.live_command import live_until_done
 from support.processes import pdr
 from support.walks import BEGIN_NS, write_csv
 
-LENGTH_M, SPEED = 24.0, 2  # after 20 m the feet know that they turn to opposite sides
+LENGTH_M, SPEED = 30.0, 2  # after 20 m the feet know that they turn to opposite sides
+ROWS = {
+    "left": 2550,
+    "right": 2350,
+}  # Ctrl-C comes in the middle of the walk, and the left foot waits for the right one
 TOLERANCE = 1e-9
 PARTS = {"left": "left/imu", "right": "right/imu", "body": "body"}  # where they are in the folders of live and of run
 PATIENT = "/**: {ros__parameters: {node: {answer_timeout_s: 0.0}}}"  # a busy machine may hold up one of the feet
@@ -27,11 +31,12 @@ pytestmark = pytest.mark.usefixtures("ros_environment")
 
 @pytest.fixture(scope="module")
 def walks():
-    """What the sensors of both feet measure."""
+    """What the sensors of both feet measure until they are switched off."""
     walk = SimulationParams(
         motion="smooth", walk="straight", walk_length_m=LENGTH_M, sample_rate_hz=100.0, sensor_model="g_sensitive"
     )
-    return {foot: both.imu for foot, both in simulated_feet(walk, start_ns=BEGIN_NS).items()}
+    feet = simulated_feet(walk, start_ns=BEGIN_NS)
+    return {foot: part(feet[foot].imu, 0, rows) for foot, rows in ROWS.items()}
 
 
 @pytest.fixture(scope="module")
