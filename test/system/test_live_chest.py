@@ -5,7 +5,9 @@ import json
 import numpy as np
 import pytest
 
+from pdr_bringup_scripts.live_recording import chest_outputs
 from pdr_core.params import Params
+from pdr_core.pipeline import ChestCard
 from pdr_core.rate_limit import RateLimit
 from pdr_core.recording import open_recording
 from pdr_core.recording.tum import read_tum
@@ -59,6 +61,17 @@ def test_what_is_estimated_is_what_was_recorded(run, again):
     np.testing.assert_array_equal(live.stamp_ns, offline.stamp_ns[rows])
     np.testing.assert_allclose(live.position_m, offline.position_m[rows], rtol=0.0, atol=TOLERANCE)
     np.testing.assert_allclose(live.quat_xyzw, offline.quat_xyzw[rows], rtol=0.0, atol=TOLERANCE)
+
+
+def test_the_rests_are_those_of_run(run):
+    heard = joined([output.judged for output in chest_outputs(run[0] / "recording")])
+    (recorded,) = open_recording(run[0] / "recording").sensors.values()
+    card = ChestCard(Params())
+    known = card.run(joined(list(recorded.pieces()))).judged
+    np.testing.assert_array_equal(heard.imu.stamp_ns, known.imu.stamp_ns)
+    first = int(np.argmax(known.stance))  # before its first rest the card has no velocity either
+    np.testing.assert_array_equal(heard.stance[first:], known.stance[first:])
+    assert 0.2 < heard.stance.mean() < 0.8
 
 
 def test_the_result_is_the_same(run, again):
