@@ -12,6 +12,7 @@ from pdr_bringup_scripts.interrupt import Interrupt
 from pdr_bringup_scripts.judging import BAG, judge
 from pdr_bringup_scripts.listener import Ears
 from pdr_bringup_scripts.live import (
+    NOTHING_S,
     Watch,
     make_run_folder,
     new_recording,
@@ -81,7 +82,8 @@ def record(cast: Cast, job: LiveJob, out: Path, terminal: Terminal) -> None:
         chains.check()
         check_heard(relays, out, terminal)
         show("ending: the nodes give out what they still hold")
-        while watch.quiet_s < quiet_s:
+        estimates = {f"/{below(foot, 'odom')}" for foot in cast.feet}
+        while watch.quiet_s < (quiet_s if estimates <= bag.topics else NOTHING_S):  # nodes may still be starting
             ears.listen(0.1)
             chains.check()
 

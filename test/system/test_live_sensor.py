@@ -102,6 +102,15 @@ def test_a_magnetometer_that_says_nothing_is_told(tmp_path):
     assert len(verdicts) == length(joined(list(sensor.pieces()))) > 500
 
 
+def test_ctrl_c_before_the_nodes_are_there_loses_nothing(walk, tmp_path):
+    driver = (walk, "/quick/imu", "RELIABLE", 50)
+    code, _, complained = live_until_done(tmp_path, [driver], "--imu", "/quick/imu")
+    assert code == 0, complained
+    (sensor,) = open_recording(tmp_path / "out" / "recording").sensors.values()
+    verdicts = list(messages(tmp_path / "out" / "recording", "stance"))
+    assert len(verdicts) == length(joined(list(sensor.pieces()))) > 100
+
+
 def test_nothing_to_hear_is_one_sentence(tmp_path):
     answer = pdr("live", "--imu", "/nowhere", "--duration", 0.5, "--out", tmp_path / "out")
     assert (answer.returncode, answer.stdout) == (2, "")
