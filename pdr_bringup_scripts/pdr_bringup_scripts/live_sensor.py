@@ -24,7 +24,6 @@ from pdr_bringup_scripts.terminal import Terminal
 from pdr_core.evaluation.result import Result, SensorsResult
 from pdr_core.pipeline import ChestCard
 from pdr_core.warmup import warm_up
-from pdr_nodes.heading_fusion_node import patience_s
 
 PATIENCE_S = 5.0  # without a sample, before we say so
 REMINDER_S = 30.0
@@ -90,7 +89,7 @@ def record(cast: Cast, job: LiveJob, out: Path, terminal: Terminal) -> None:
 
 def quiet_after_all_s(cast: Cast) -> float:
     """Return the silence [s] after which nothing more is said: one foot may wait for another that has ended."""
-    waits_s = patience_s(cast.person.node) if cast.person and len(cast.feet) > 1 else 0.0
+    waits_s = cast.person.node.foot_patience_s if cast.person and len(cast.feet) > 1 else 0.0
     return quiet_for_good_s(cast) + waits_s
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from support import foreign_driver
 from support.processes import END_S, start
 
+ANSWER_S = 300.0  # nodes may still be starting, and wait for each other
 HEARD_S = 0.5  # what was published last is on its way
 
 
@@ -29,7 +30,7 @@ def live_until_done(folder: Path, drivers: Sequence[tuple[object, ...]], *argume
         wait_for(logs, live)
         time.sleep(HEARD_S)
         live.send_signal(signal.SIGINT)
-        said, complained = live.communicate(timeout=END_S)
+        said, complained = live.communicate(timeout=ANSWER_S)
     return live.returncode, said, complained
 
 
