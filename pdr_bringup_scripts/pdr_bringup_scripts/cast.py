@@ -1,15 +1,16 @@
-"""Which nodes a run has: those of every foot, and one that answers their steps and tells of the person."""
+"""Which nodes a run has: those of every sensor, and one that answers the steps of feet and tells of the person."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pdr_bringup_scripts.chain import ADAPTIVE, DRIVER, NODES, Chain
+from pdr_bringup_scripts.chain import ADAPTIVE, DRIVER, NODES, ON_CHEST, Chain
 from pdr_bringup_scripts.chains import Chains
-from pdr_bringup_scripts.listener import OF_A_FOOT, OF_A_PERSON, OF_A_SWITCHED_FOOT, OF_ALL
+from pdr_bringup_scripts.listener import OF_A_FOOT, OF_A_PERSON, OF_A_SENSOR, OF_A_SWITCHED_FOOT, OF_ALL
 from pdr_core.params import Params, changed, params_as_mapping
 
 FUSION = "heading_fusion"
+SAID = {NODES: OF_A_FOOT, ADAPTIVE: OF_A_FOOT | OF_A_SWITCHED_FOOT, ON_CHEST: OF_A_SENSOR}  # by the nodes of a sensor
 OF_A_NODE = ("imu/data_raw", "imu/data", "stance", "odom")  # a topic of every node of a foot
 LONGEST_ANSWER_S = 60.0
 LEAD_SAMPLES = 60  # a few times as many as go to one decision
@@ -18,11 +19,21 @@ FOOT = "foot"  # the namespace of a foot alone whose steps are answered
 
 @dataclass(frozen=True)
 class Cast:
-    """`feet` by their namespace below that of the run; `person` of None: nobody answers."""
+    """`feet`, or the chest, by their namespace below that of the run; `person` of None: nobody answers."""
 
-    feet: Mapping[str, Params]  # "": the foot's topics are in the namespace of the run itself
+    feet: Mapping[str, Params]  # "": its topics are in the namespace of the run itself
     person: Params | None = None
-    adaptive: bool = False  # the gyro of each foot is switched
+    nodes: tuple[str, ...] = NODES  # of each sensor
+
+    @property
+    def adaptive(self) -> bool:
+        """The gyro of each foot is switched."""
+        return self.nodes == ADAPTIVE
+
+    @property
+    def chest(self) -> bool:
+        """The sensor is a card on the chest."""
+        return self.nodes == ON_CHEST
 
     def with_params(self, change: Callable[[Params], Params]) -> "Cast":
         """Return the same nodes with parameters that are changed."""
@@ -42,16 +53,14 @@ class Cast:
     @property
     def topics(self) -> dict[str, str]:
         """What is said, by topic below the namespace of the run."""
-        of_one = OF_A_FOOT | (OF_A_SWITCHED_FOOT if self.adaptive else {})
-        of_feet = {below(foot, topic): kind for foot in self.feet for topic, kind in of_one.items()}
+        of_feet = {below(foot, topic): kind for foot in self.feet for topic, kind in SAID[self.nodes].items()}
         return of_feet | (OF_A_PERSON if self.person else {}) | OF_ALL
 
     def chains(
         self, logs: Path, namespace: str, driver: bool, remapped: Mapping[str, Mapping[str, str]] | None = None
     ) -> Chains:
         """Return the processes, not yet started."""
-        of_one = ADAPTIVE if self.adaptive else NODES
-        nodes = (*of_one, DRIVER) if driver else of_one
+        nodes = (*self.nodes, DRIVER) if driver else self.nodes
         chains = [
             Chain(logs / foot, params_as_mapping(params), below(namespace, foot), nodes, remapped)
             for foot, params in self.feet.items()
@@ -73,6 +82,11 @@ def one_foot(params: Params) -> Cast:
     return answered({FOOT: params})
 
 
+def chest_card(params: Params) -> Cast:
+    """Return the nodes of a card on the chest, which holds its heading by itself."""
+    return Cast({"": params}, nodes=ON_CHEST)
+
+
 def one_switched_foot(params: Params) -> Cast:
     """Return the nodes of a foot alone whose gyro is switched.
 
@@ -82,7 +96,7 @@ def one_switched_foot(params: Params) -> Cast:
     speed = max(1.0, params.driver.rate_factor)
     timeout_s = min(params.power.answer_timeout_s * speed, LONGEST_ANSWER_S)
     params = changed(params, "power", answer_timeout_s=timeout_s)
-    return Cast({"": changed(params, "driver", acknowledge_topic="walk", lead_samples=LEAD_SAMPLES)}, adaptive=True)
+    return Cast({"": changed(params, "driver", acknowledge_topic="walk", lead_samples=LEAD_SAMPLES)}, nodes=ADAPTIVE)
 
 
 def both_simulated(params: Params, start_ns: int) -> Cast:

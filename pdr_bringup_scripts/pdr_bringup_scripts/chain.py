@@ -1,4 +1,4 @@
-"""Starts the nodes of one foot as separate processes, together, and ends them together."""
+"""Starts the nodes of one sensor as separate processes, together, and ends them together."""
 
 import os
 import re
@@ -15,6 +15,7 @@ from pdr_bringup_scripts.problems import Problem
 
 NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
 ADAPTIVE = ("imu_ingestion", "stance_detector", "gait_dr", "mode_manager")  # of a foot whose gyro is switched
+ON_CHEST = ("imu_ingestion", "chest_pdr")  # of a card on the chest
 DRIVER = "imu_driver"
 QUICK_DISCOVERY = Path(__file__).with_name("fastdds_quick.xml")
 GRACE_S = 5.0

@@ -8,16 +8,17 @@ from pathlib import Path
 from pdr_bringup_scripts.body_book import BodyBook
 from pdr_bringup_scripts.book import Book
 from pdr_bringup_scripts.cast import FUSION, Cast, below
-from pdr_bringup_scripts.live_recording import body, notices, outputs
+from pdr_bringup_scripts.live_recording import body, chest_outputs, notices, outputs
 from pdr_bringup_scripts.switched_recording import decided, switched_notices, switched_outputs
-from pdr_core.evaluation.result import Result, SensorsResult
+from pdr_core.evaluation.result import CHEST, LIVE, Result, SensorsResult
 from pdr_core.params import Params
-from pdr_core.pipeline import FootOutput, HeadingFusion
+from pdr_core.pipeline import BodySteps, FootOutput, HeadingFusion
 from pdr_core.pipeline.both_feet import BODY
 from pdr_core.recording import Sensor, Session, open_recording
 from pdr_core.records import length
 
-PIPELINE, BODY_PIPELINE, SWITCHED_PIPELINE = "foot_inertial, live", "both_feet, live", "foot_adaptive, live"
+PIPELINE, BODY_PIPELINE = f"foot_inertial{LIVE}", f"both_feet{LIVE}"
+SWITCHED_PIPELINE, CHEST_PIPELINE = f"foot_adaptive{LIVE}", f"{CHEST}{LIVE}"
 BAG = "recording"
 
 
@@ -47,11 +48,22 @@ def judge(
     ((foot, params),) = cast.feet.items()
     if cast.adaptive:
         return judge_switched(run, foot, params, out)
+    if cast.chest:
+        return judge_chest(run, params, out)
     with ExitStack() as stack:
         book = Book(run.session, run.sensor(foot), out, stack)
         for output in outputs(run.bag, foot, params.node.odom_rate_hz):
             book.keep(output)
         return close(run, book, foot, params, f"{namespace}/")
+
+
+def judge_chest(run: Run, params: Params, out: Path) -> Result:
+    """Judge a card on the chest."""
+    with ExitStack() as stack:
+        book = Book(run.session, run.sensor(""), out, stack, BodySteps())
+        for output in chest_outputs(run.bag):
+            book.keep(output)
+        return close(run, book, "", params, f"{run.namespace}/", CHEST_PIPELINE)
 
 
 def judge_switched(run: Run, foot: str, params: Params, out: Path) -> Result:
@@ -88,10 +100,10 @@ def judge_both(run: Run, cast: Cast, person: Params, out: Path) -> SensorsResult
     return together
 
 
-def close(run: Run, book: Book, foot: str, params: Params, speakers: str) -> Result:
-    """Return the result of a foot; the full names of the nodes that tell of it begin with `speakers`."""
+def close(run: Run, book: Book, foot: str, params: Params, speakers: str, pipeline: str = PIPELINE) -> Result:
+    """Return the result of a sensor; the full names of the nodes that tell of it begin with `speakers`."""
     samples = sum(length(piece) for piece in run.sensor(foot).pieces())
-    return book.close(PIPELINE, params, samples, run.seconds, notices(run.bag, speakers))
+    return book.close(pipeline, params, samples, run.seconds, notices(run.bag, speakers))
 
 
 def tell(fusion: HeadingFusion, foot: str, output: FootOutput) -> None:

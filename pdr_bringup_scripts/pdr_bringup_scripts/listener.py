@@ -14,15 +14,15 @@ from rclpy.signals import SignalHandlerOptions
 from pdr_core.recording.bag_writer import BagWriter
 from pdr_nodes.qos import ANSWERS, MODES, OWN, STATUS
 
-OF_A_FOOT = {
+OF_A_SENSOR = {
     "imu/data_raw": "sensor_msgs/msg/Imu",
     "imu/mag": "sensor_msgs/msg/MagneticField",
     "ground_truth": "geometry_msgs/msg/PoseStamped",
-    "stance": "pdr_msgs/msg/StanceImu",
     "odom": "nav_msgs/msg/Odometry",
     "step": "pdr_msgs/msg/StepEvent",
     "filter_health": "pdr_msgs/msg/FilterHealth",
 }
+OF_A_FOOT = OF_A_SENSOR | {"stance": "pdr_msgs/msg/StanceImu"}
 OF_A_SWITCHED_FOOT = {"walk": "pdr_msgs/msg/WalkStatus", "mode": "pdr_msgs/msg/NavigationMode"}
 OF_A_PERSON = {"odom": "nav_msgs/msg/Odometry"}
 OF_ALL = {"diagnostics": "diagnostic_msgs/msg/DiagnosticArray"}

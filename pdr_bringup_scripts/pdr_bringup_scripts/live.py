@@ -67,12 +67,13 @@ def make_run_folder(out: Path) -> None:
 
 @contextmanager
 def new_recording(path: Path) -> Iterator[BagWriter]:
-    """Write a bag while the block runs; one without a sample does not stay."""
-    bag = bag_writer(path)
+    """Write a bag while the block runs, whole whatever fails there; one without a sample does not stay."""
+    end = ExitStack()
+    bag = end.enter_context(bag_writer(path))
     try:
-        with bag:
-            yield bag
+        yield bag
     finally:
+        end.close()  # without the error: with it the last minutes would be lost
         if not any(topic.endswith(SAMPLES) for topic in bag.topics):
             rmtree(path, ignore_errors=True)
 

@@ -11,7 +11,7 @@ from pdr_bringup_scripts.cast import below
 from pdr_bringup_scripts.problems import Problem
 from pdr_core.pipeline import FootOutput
 from pdr_core.rate_limit import RateLimit
-from pdr_core.records import NavBlock, Notice, joined
+from pdr_core.records import NavBlock, Notice, StanceBlock, inertial_block, joined, length
 from pdr_nodes.convert import nav_block, stamp_ns, stance_block, step_event
 from pdr_nodes.notice_board import NO_FIELD, NO_INPUT, ORIENTATION, notices_from
 
@@ -38,9 +38,30 @@ def outputs(bag: Path, foot: str, odom_rate_hz: float) -> Iterator[FootOutput]:
         steps = []
 
 
+def chest_outputs(bag: Path) -> Iterator[FootOutput]:
+    """Yield the estimates of a card on the chest in pieces, and all steps with the first piece."""
+    steps = [step_event(m) for m in messages(bag, "step")]
+    for nav in navs(bag, "odom"):
+        yield FootOutput(resting(nav), nav, steps)
+        steps = []
+
+
+def resting(nav: NavBlock) -> StanceBlock:
+    """Return when a chest rests: while it does, its estimate is held and has no velocity at all."""
+    zero = np.zeros(length(nav))
+    level = np.zeros((length(nav), 3))
+    rests = np.linalg.norm(nav.velocity_mps, axis=1) == 0.0
+    return StanceBlock(inertial_block(nav.stamp_ns, level, level, zero, zero), rests, zero, zero, zero, level, zero)
+
+
 def body(bag: Path) -> Iterator[NavBlock]:
     """Yield the estimates of the person between two feet in pieces."""
-    said = messages(bag, "odom")
+    return navs(bag, "odom")
+
+
+def navs(bag: Path, topic: str) -> Iterator[NavBlock]:
+    """Yield the estimates of a topic in pieces."""
+    said = messages(bag, topic)
     while piece := list(islice(said, PIECE)):
         yield joined([nav_block(odometry) for odometry in piece])
 

@@ -35,7 +35,7 @@ class Relay:
     ) -> None:
         self._node = node
         self._input, self._mag_input = below(foot, INPUT), below(foot, MAG_INPUT)
-        self._topics = topics
+        self.topics = topics
         self._take = take
         self._closed = False
         self.first_s: float | None = None  # when the first sample came
@@ -53,9 +53,9 @@ class Relay:
 
     def why_silent(self) -> str:
         """Return in a sentence why nothing may have come."""
-        infos = self._node.get_publishers_info_by_topic(self._topics.imu)
+        infos = self._node.get_publishers_info_by_topic(self.topics.imu)
         types = sorted({info.topic_type for info in infos})
-        start = f"no messages on {self._topics.imu} yet: "
+        start = f"no messages on {self.topics.imu} yet: "
         if types and IMU not in types:
             return f"{start}it is published as {', '.join(types)}, not as {IMU}"
         if types:

@@ -2,26 +2,14 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 from pdr_bringup_scripts.known_points import KnownPoint
 from pdr_bringup_scripts.options import known_name
 from pdr_bringup_scripts.problems import Problem
+from pdr_bringup_scripts.together import FOOT, PLACES, Alone, check_together
 from pdr_core.evaluation.result import CAUSAL, CHEST, Hindsight
 from pdr_core.params import Params, changed
 from pdr_core.pipeline.stance_phases import OFFLINE, TIME_GATES, with_time_gate
-
-FOOT = "foot"
-PLACES = (FOOT, CHEST)
-
-
-class Alone(NamedTuple):
-    """An option, why it goes alone, and what it does not go with."""
-
-    option: str
-    why: str
-    without: tuple[str, ...]
-
 
 WHOLE = ("--smooth", "--time-gate kmeans_offline")  # with these a run knows the whole recording beforehand
 RULES = (
@@ -59,10 +47,7 @@ class RunOptions:
             known_name("--time-gate", self.time_gate, TIME_GATES)
         if self.aid and not self.external:
             raise Problem("--aid says what --external is for: give --external its topic")
-        given = self._given()
-        for option, why, without in RULES:
-            if option in given and (wrong := [other for other in without if other in given]):
-                raise Problem(f"{option} {why}: leave out {' and '.join(wrong)}")
+        check_together(self._given(), RULES)
 
     def _given(self) -> set[str]:
         options = {

@@ -154,6 +154,9 @@ class DriverParams:
     settling_s: float = parameter(0.05, "what the gyro needs after being switched on", unit="s", bounds=(0.0, 10.0))
 
 
+LONGEST_PATIENCE_S = 20.0  # even where answers are waited for for ever: one foot may have ended long before the other
+
+
 @dataclass(frozen=True)
 class NodeParams:
     """Frames, streams and habits of the nodes."""
@@ -190,6 +193,11 @@ class NodeParams:
     idle_s: float = parameter(
         1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)
     )
+
+    @property
+    def foot_patience_s(self) -> float:
+        """How long one foot waits for another [s]: until shortly before its filter goes on unanswered."""
+        return self.answer_timeout_s / 2.0 or LONGEST_PATIENCE_S
 
 
 @dataclass(frozen=True)

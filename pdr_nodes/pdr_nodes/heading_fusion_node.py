@@ -8,7 +8,7 @@ their own worlds.
 from functools import partial
 from typing import ClassVar
 
-from pdr_core.params import NodeParams, Params
+from pdr_core.params import Params
 from pdr_core.pipeline import AidedFusion, FusionOutput, HeadingFusion, PlacedBody
 from pdr_core.records import Level, NavBlock, Notice, StepEvent
 from pdr_core.warmup import warm_up
@@ -20,7 +20,6 @@ from pdr_nodes.placing import Placing
 from pdr_nodes.run import run
 
 PERIOD_S = 0.05
-LONGEST_S = 20.0  # even where answers are waited for for ever: one foot may have ended long before the other
 
 
 class HeadingFusionNode(ManagedNode):
@@ -40,7 +39,7 @@ class HeadingFusionNode(ManagedNode):
         self._placing = Placing(self, node.world_frame, self._placed.place) if self.PLACES else None
         self._feet = {name: FootTopics(self, name, node.world_frame, self._stepped, self._moved) for name in names}
         for name in names:
-            self.every(PERIOD_S, partial(self._look_at, name, self._patience_with(name, patience_s(node))))
+            self.every(PERIOD_S, partial(self._look_at, name, self._patience_with(name, node.foot_patience_s)))
         self.tell("person", self._notices)
 
     def make_fusion(self, params: Params, feet: tuple[str, ...]) -> HeadingFusion | AidedFusion:
@@ -82,11 +81,6 @@ class HeadingFusionNode(ManagedNode):
             return []
         text = f"both feet call themselves {frames[0]!r}: give each a node.foot_frame of its own"
         return [Notice(Level.WARN, "same_foot_frame", text, 1, 0)] if frames[0] else []
-
-
-def patience_s(node: NodeParams) -> float:
-    """Return how long one foot waits for another [s]: until shortly before its filter goes on unanswered."""
-    return node.answer_timeout_s / 2.0 or LONGEST_S
 
 
 def main() -> None:

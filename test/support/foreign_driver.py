@@ -1,8 +1,8 @@
-"""Somebody else's driver: `python -m support.foreign_driver RECORDING TOPIC RELIABILITY SPEED`.
+"""Somebody else's driver: `python -m support.foreign_driver RECORDING TOPIC RELIABILITY SPEED [mag]`.
 
 Publishes the samples once somebody listens, `SPEED` times as fast as their stamps say, says so and goes on living. It
 knows nothing of the suite but how to open the recording, and offers no service. Its robot has an `/odom` and
-`/diagnostics` of its own.
+`/diagnostics` of its own. With `mag` it has a magnetometer, for which it waits too.
 """
 
 import sys
@@ -36,7 +36,7 @@ def field_of(message: Imu, tesla: float) -> MagneticField:
 
 
 def main() -> None:
-    recording, topic, reliability, speed = sys.argv[1:]
+    recording, topic, reliability, speed, *mag_too = sys.argv[1:]
     (sensor,) = open_recording(Path(recording)).sensors.values()
     rclpy.init()
     node = rclpy.create_node("somebodys_driver")
@@ -47,7 +47,8 @@ def main() -> None:
     odometry = node.create_publisher(Odometry, "/odom", kept)
     diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
     wheels = DiagnosticStatus(name="robot: wheels", values=[KeyValue(key="supply", value="24.1 V")])
-    while not (publisher.get_subscription_count() and mag.get_subscription_count()):
+    awaited = [publisher, mag] if mag_too else [publisher]
+    while not all(each.get_subscription_count() for each in awaited):
         time.sleep(0.05)
     begin_s, begin_ns = time.monotonic(), None
     for piece in sensor.pieces():
@@ -56,7 +57,8 @@ def main() -> None:
             time.sleep(max(0.0, begin_s + (stamp_ns - begin_ns) / 1e9 / float(speed) - time.monotonic()))
             message = message_of(stamp_ns, gyro, accel)
             publisher.publish(message)
-            mag.publish(field_of(message, (stamp_ns - begin_ns) * 1e-18))  # tells the stamps apart
+            if mag_too:
+                mag.publish(field_of(message, (stamp_ns - begin_ns) * 1e-18))  # tells the stamps apart
             odometry.publish(Odometry(header=message.header))
         diagnostics.publish(DiagnosticArray(status=[wheels]))
     print("done", flush=True)

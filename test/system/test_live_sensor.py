@@ -1,10 +1,8 @@
 """`pdr live` on somebody else's driver, in a process that shares nothing with us but the ROS graph."""
 
 import json
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +15,8 @@ from pdr_core.recording import open_recording
 from pdr_core.recording.tum import read_tum
 from pdr_core.records import joined, length
 from pdr_nodes.convert import stance_block
-from support import foreign_driver
-from support.processes import END_S, check_refused, pdr, start
+from support.live_command import live_until_done
+from support.processes import END_S, check_refused, pdr
 from support.walks import straight_walk, write_csv
 
 STRIDES, SPEED = 4, 2
@@ -30,35 +28,12 @@ def walk(tmp_path_factory):
     return write_csv(tmp_path_factory.mktemp("walk") / "walk.csv", straight_walk(STRIDES).imu)
 
 
-def end_when_done(live, log):
-    """Press Ctrl-C when the driver has published everything."""
-    deadline_s = time.monotonic() + END_S
-    while "done" not in log.read_text():
-        assert time.monotonic() < deadline_s, log.read_text()
-        assert live.poll() is None, "pdr live ended before the driver"
-        time.sleep(0.1)
-    time.sleep(0.5)
-    live.send_signal(signal.SIGINT)
-
-
 @pytest.fixture(scope="module", params=["RELIABLE", "BEST_EFFORT"])
 def run(request, walk, tmp_path_factory):
     """A live run that Ctrl-C ends: its folder, its exit code and what it said."""
     folder = tmp_path_factory.mktemp("live")
-    log = folder / "driver.log"
-    driver = start([foreign_driver.__file__, str(walk), "/your/imu", request.param, str(SPEED)], log)
-    command = [sys.executable, "-m", "pdr_bringup_scripts", "live", "--imu", "your/imu", "--mag", "/your/imu_mag"]
-    live = subprocess.Popen(
-        [*command, "--out", str(folder / "out")], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
-    try:
-        end_when_done(live, log)
-        said, complained = live.communicate(timeout=END_S)
-    finally:
-        for process in (driver, live):
-            process.kill()
-            process.wait(END_S)
-    return folder / "out", live.returncode, said, complained
+    driver = (walk, "/your/imu", request.param, SPEED, "mag")
+    return folder / "out", *live_until_done(folder, [driver], "--imu", "your/imu", "--mag", "/your/imu_mag")
 
 
 def test_ctrl_c_ends_it_well(run):
@@ -127,6 +102,15 @@ def test_a_magnetometer_that_says_nothing_is_told(tmp_path):
     assert len(verdicts) == length(joined(list(sensor.pieces()))) > 500
 
 
+def test_ctrl_c_before_the_nodes_are_there_loses_nothing(walk, tmp_path):
+    driver = (walk, "/quick/imu", "RELIABLE", 50)
+    code, _, complained = live_until_done(tmp_path, [driver], "--imu", "/quick/imu")
+    assert code == 0, complained
+    (sensor,) = open_recording(tmp_path / "out" / "recording").sensors.values()
+    verdicts = list(messages(tmp_path / "out" / "recording", "stance"))
+    assert len(verdicts) == length(joined(list(sensor.pieces()))) > 100
+
+
 def test_nothing_to_hear_is_one_sentence(tmp_path):
     answer = pdr("live", "--imu", "/nowhere", "--duration", 0.5, "--out", tmp_path / "out")
     assert (answer.returncode, answer.stdout) == (2, "")
@@ -148,7 +132,11 @@ def test_a_magnetometer_without_its_topic_is_refused(tmp_path):
     params = tmp_path / "mine.yaml"
     params.write_text("/**: {ros__parameters: {node: {magnetometer: true}}}\n")
     answer = pdr("live", "--params", params, "--out", tmp_path / "out")
-    check_refused(answer, "node.magnetometer is true: say by --mag")
+    check_refused(answer, "node.magnetometer is true: say by --mag on which topic")
+    feet = ("--left", "/l", "--right", "/r", "--left-mag", "/m")
+    check_refused(
+        pdr("live", *feet, "--params", params, "--out", tmp_path / "out"), "say by --right-mag on which topic"
+    )
 
 
 @pytest.mark.parametrize("mag", [(), ("--mag", "/imu/mag")])
@@ -176,6 +164,16 @@ def test_a_driver_of_ours_is_started_and_ends_the_run(mag, tmp_path):
         (("--duration", "inf"), "--duration inf"),
         (("--duration", "0"), "--duration"),
         (("--driver", "teapot"), "driver.device = 'teapot'"),
+        (("--left", "/l"), "--left is one of two feet: give --right its topic too; a foot alone is --imu"),
+        (("--right", "/r"), "give --left its topic too"),
+        (("--left", "/l", "--right", "/r", "--imu", "/i"), "--left is one of two feet: leave out --imu"),
+        (("--left", "/l", "--right", "/r", "--pipeline", "chest"), "leave out --pipeline chest"),
+        (("--left", "/l", "--right", "/r", "--mag", "/m"), "--left-mag, the other foot on --right-mag: leave out"),
+        (("--left", "/l", "--right", "/r", "--driver", "simulated"), "`pdr demo --dual`"),
+        (("--left", "/l", "--right", "l"), "/l cannot be both --left and --right"),
+        (("--left", "/pdr/left/imu/data", "--right", "/r"), "a topic of our own nodes"),
+        (("--right-mag", "/m"), "--right-mag goes with --left and --right: the magnetometer of one sensor is --mag"),
+        (("--pipeline", "hand"), "--pipeline hand: there is none of that name; choose from foot, chest"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(arguments, word, tmp_path):

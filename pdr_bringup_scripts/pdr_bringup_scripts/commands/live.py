@@ -10,8 +10,15 @@ DRIVERS = "a driver of ours to start for that topic: simulated, or replayed, wit
 
 
 def live(
-    imu: str = typer.Option("/imu/data_raw", help="topic of the driver: sensor_msgs/Imu, raw, 100 Hz or more"),
+    imu: str = typer.Option(
+        "", help="topic of one sensor: sensor_msgs/Imu, raw, 100 Hz or more; default: /imu/data_raw"
+    ),
     mag: str = typer.Option("", help="topic of its magnetometer: sensor_msgs/MagneticField, paired with it by stamp"),
+    left: str = typer.Option("", help="topic of the sensor on the left foot, where each foot has one"),
+    right: str = typer.Option("", help="topic of the sensor on the right foot"),
+    left_mag: str = typer.Option("", help="topic of the left foot's magnetometer"),
+    right_mag: str = typer.Option("", help="topic of the right foot's magnetometer"),
+    pipeline: str = typer.Option("foot", help="where one sensor is: foot, or chest, a card that is worn there"),
     driver: str = typer.Option("none", help=DRIVERS),
     out: Path = typer.Option(None, "--out", "-o", help="folder for recording, trajectory, result and report"),
     params: Path = typer.Option(None, help="parameter file, see `pdr params`"),
@@ -22,27 +29,21 @@ def live(
 ) -> None:
     """Estimate the walk that a driver is publishing now, on your ROS graph, until Ctrl-C; any delivery will do.
 
-    Example: `pdr live --imu /foot/imu`, stand still for three seconds, walk, and press Ctrl-C
+    Example: `pdr live --imu /foot/imu`, or `pdr live --left /left/imu --right /right/imu`, or
+    `pdr live --imu /chest/imu --pipeline chest`: stand still for three seconds, walk, and press Ctrl-C
     """
     from pdr_bringup_scripts.chain import checked_namespace
-    from pdr_bringup_scripts.live_sensor import LiveJob, checked_topic, run_on_driver
-    from pdr_bringup_scripts.problems import Problem
-    from pdr_bringup_scripts.relay import DriverTopics
+    from pdr_bringup_scripts.live_options import LiveOptions
+    from pdr_bringup_scripts.live_sensor import LiveJob, run_on_driver
     from pdr_bringup_scripts.run_folder import new_run_folder, show_result
     from pdr_bringup_scripts.terminal import Terminal
-    from pdr_core.params import Params, changed
+    from pdr_core.params import Params
     from pdr_core.params_file import load_params
 
-    chosen, own_driver = load_params(params) if params else Params(), driver != "none"
-    if chosen.node.magnetometer and not mag:
-        raise Problem("node.magnetometer is true: say by --mag on which topic the magnetometer is")
-    if own_driver:
-        chosen = changed(changed(chosen, "driver", device=driver), "simulation", magnetometer=bool(mag))
-    if driver == "replayed" and not chosen.driver.recording:
-        raise Problem("--driver replayed needs driver.recording in a file of --params, or use `pdr replay RECORDING`")
+    options = LiveOptions(imu, mag, left, right, left_mag, right_mag, driver, pipeline)
     home = checked_namespace(namespace)
-    topics = DriverTopics(checked_topic(imu, home), checked_topic(mag, home) if mag else "", own_driver)
-    if topics.imu == topics.mag:
-        raise Problem(f"{topics.imu} cannot be both --imu and --mag: a topic has one type")
+    topics = options.topics(home)
+    cast = options.cast(load_params(params) if params else Params(), topics)
+    job = LiveJob(topics, options.own_driver, home, duration)
     folder = out or new_run_folder("live")
-    show_result(run_on_driver(chosen, LiveJob(topics, own_driver, home, duration), folder, Terminal()), folder)
+    show_result(run_on_driver(cast, job, folder, Terminal()), folder)

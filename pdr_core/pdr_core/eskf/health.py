@@ -9,6 +9,8 @@ from pdr_core.eskf.state import FilterState
 from pdr_core.records import FieldUse, FilterHealth, FilterMode, Level, Notice
 
 LOST_AFTER_S = 5.0  # no step takes so long
+WHY_LOST = "is the sensor fixed to the shoe? Worn on the chest it needs `--pipeline chest`; on the shoe,"
+WHICH_FINDS = "`pdr compare --detectors all` shows which detector finds its stances"
 FIELD_USED = {
     FieldUse.CHANGE: "the magnetic field shows the gyro bias; a compass it is where many places in a row agree",
     FieldUse.HEADING: "the magnetic field is clean: it shows the gyro bias and the heading",
@@ -35,7 +37,7 @@ def notices(state: FilterState) -> list[Notice]:
         text = "stances contradicted the estimate until it gave way: the track was off before them"
         found.append(Notice(Level.WARN, "estimate_doubted", text, doubted, start_ns))
     if swing_s > LOST_AFTER_S:
-        text = f"no stance for {swing_s:.0f} s: the track is lost; is the sensor fixed to the shoe?"
+        text = f"no stance for {swing_s:.0f} s: the track is lost; {WHY_LOST} {WHICH_FINDS}"
         found.append(Notice(Level.ERROR, "no_stance", text, 1, start_ns))
     if gaps:
         text = "intervals were not navigated: the position was held across them"

@@ -27,6 +27,7 @@ class Hindsight(NamedTuple):
 
 CAUSAL = Hindsight()
 CHEST = "chest"  # the pipeline whose steps are those of a body
+LIVE = ", live"  # ends the name of a pipeline whose nodes have estimated
 
 
 @dataclass(frozen=True)
@@ -63,12 +64,12 @@ class Result:
     @property
     def counts(self) -> str:
         """What is counted: a foot makes strides, a body steps."""
-        return "step" if self.pipeline == CHEST else "stride"
+        return "step" if self.worn_on == CHEST else "stride"
 
     @property
     def worn_on(self) -> str:
         """What the sensor follows."""
-        return "chest" if self.pipeline == CHEST else "foot"
+        return CHEST if self.pipeline.removesuffix(LIVE) == CHEST else "foot"
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the result as strict JSON knows it: plain types, None for NaN and infinity."""
