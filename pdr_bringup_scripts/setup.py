@@ -6,7 +6,7 @@ NAME = "pdr_bringup_scripts"
 
 setup(
     name=NAME,
-    version="0.9.0",
+    version="0.10.0",
     description="The pdr command, launch files and configuration of the suite.",
     maintainer="pdr maintainers",
     maintainer_email="pdr@example.org",

@@ -4,7 +4,7 @@ NAME = "pdr_core"
 
 setup(
     name=NAME,
-    version="0.9.0",
+    version="0.10.0",
     description="Pedestrian dead reckoning from foot- and body-worn inertial sensors, without ROS.",
     maintainer="pdr maintainers",
     maintainer_email="pdr@example.org",

@@ -15,7 +15,7 @@ NODES = [
 
 setup(
     name=NAME,
-    version="0.9.0",
+    version="0.10.0",
     description="The ROS 2 nodes of the pedestrian dead reckoning suite.",
     maintainer="pdr maintainers",
     maintainer_email="pdr@example.org",

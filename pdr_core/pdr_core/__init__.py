@@ -1,3 +1,3 @@
 """Pedestrian dead reckoning: the estimators, without ROS."""
 
-__version__ = "0.9.0"
+__version__ = "0.10.0"
