@@ -13,6 +13,7 @@ setup(
     license="Apache-2.0",
     # bootstrap/ beside it stays in the checkout: it makes the environment this is installed into
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
+    package_data={f"{NAME}.live": ["fastdds_quick.xml"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),

@@ -9,7 +9,7 @@ from hypothesis import settings
 from support.domain import own_domain
 
 CHECKOUT = Path(__file__).resolve().parents[1]
-QUICK_DISCOVERY = CHECKOUT / "pdr_bringup_scripts" / "pdr_bringup_scripts" / "fastdds_quick.xml"
+QUICK_DISCOVERY = CHECKOUT / "pdr_bringup_scripts" / "pdr_bringup_scripts" / "live" / "fastdds_quick.xml"
 
 settings.register_profile("repeatable", deadline=None, derandomize=True)  # the time to compile is no failure
 settings.load_profile("repeatable")

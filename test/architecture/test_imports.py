@@ -98,18 +98,20 @@ MAY_IMPORT = {
     "pdr_nodes.mode_manager_node": f"{NODE} pdr_core.power",
     # commands see stages through the pipeline only, and of the nodes what reads their messages
     "pdr_bringup_scripts": f"{BASE} pdr_core.__version__ {RESULTS} pdr_core.params_file typer rich yaml {READS}",
-    "pdr_bringup_scripts.listener": f"{BASE} {READS} rclpy ament_index_python pdr_core.recording.bag_writer",
+    "pdr_bringup_scripts.live.listener": f"{BASE} {READS} rclpy ament_index_python pdr_core.recording.bag_writer",
     # watch the nodes as anybody on the graph can
-    "pdr_bringup_scripts.graph": "rclpy pdr_nodes.__path__ pdr_bringup_scripts.cast",
+    "pdr_bringup_scripts.live.graph": "rclpy pdr_nodes.__path__ pdr_bringup_scripts.live.cast",
     "pdr_bringup_scripts.launching": "launch launch_ros",
-    "pdr_bringup_scripts.node_parameters": f"{BASE} rclpy",
-    "pdr_bringup_scripts.recorder": "rclpy pdr_bringup_scripts pdr_core.params_file pdr_core.recording.mcap_writer",
-    "pdr_bringup_scripts.relay": f"{READS} rclpy sensor_msgs pdr_bringup_scripts.cast",
+    "pdr_bringup_scripts.live.node_parameters": f"{BASE} rclpy",
+    "pdr_bringup_scripts.live.recorder": "rclpy pdr_bringup_scripts pdr_core.params_file"
+    " pdr_core.recording.mcap_writer",
+    "pdr_bringup_scripts.live.relay": f"{READS} rclpy sensor_msgs pdr_bringup_scripts.live.cast",
     # reads back our own messages, which are no recording of samples; the door to those is `open_recording`
-    "pdr_bringup_scripts.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline pdr_bringup_scripts.problems"
-    " pdr_bringup_scripts.cast",
-    "pdr_bringup_scripts.switched_recording": f"{BASE} {READS} pdr_nodes.convert_mode pdr_core.pipeline"
-    " pdr_core.evaluation pdr_bringup_scripts.problems pdr_bringup_scripts.cast pdr_bringup_scripts.live_recording",
+    "pdr_bringup_scripts.live.live_recording": f"{BASE} {READS} rosbags pdr_core.pipeline pdr_bringup_scripts.problems"
+    " pdr_bringup_scripts.live.cast",
+    "pdr_bringup_scripts.live.switched_recording": f"{BASE} {READS} pdr_nodes.convert_mode pdr_core.pipeline"
+    " pdr_core.evaluation pdr_bringup_scripts.problems pdr_bringup_scripts.live.cast"
+    " pdr_bringup_scripts.live.live_recording",
 }
 ROOTS = ("pdr_core", "pdr_nodes")  # a row for what has none of its own; not a layer whose modules see each other
 IMPURE = {"time", "datetime", "logging", "warnings", "sys", "subprocess", "threading"}

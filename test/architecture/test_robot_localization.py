@@ -6,7 +6,7 @@ import numpy as np
 import yaml
 from source_tree import CHECKOUT
 
-from pdr_bringup_scripts.chain import NAMESPACE
+from pdr_bringup_scripts.live.chain import NAMESPACE
 from pdr_core.params import NodeParams
 
 FILE = CHECKOUT / "pdr_bringup_scripts" / "config" / "robot_localization.yaml"

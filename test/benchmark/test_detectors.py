@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import pytest
 
-from pdr_bringup_scripts.comparing import walk_of
+from pdr_bringup_scripts.compare.comparing import walk_of
 from pdr_core.bench.ablation import without
 from pdr_core.bench.detectors import DETECTORS, with_choice
 from pdr_core.bench.trial import Walk, trial

@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.zhou_cost import StepCost, cost
+from pdr_bringup_scripts.benches.zhou_cost import StepCost, cost
 from pdr_core.bench.zhou_tables import Results, mean, of, zhou_walks
 from pdr_core.bench.zhou_testers import TABLE_4_DEG
 from pdr_core.bench.zhou_walks import RATES_HZ

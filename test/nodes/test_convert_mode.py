@@ -7,8 +7,8 @@ import pytest
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import Imu
 
-from pdr_bringup_scripts.listener import bag_writer
-from pdr_bringup_scripts.switched_recording import decided, held
+from pdr_bringup_scripts.live.listener import bag_writer
+from pdr_bringup_scripts.live.switched_recording import decided, held
 from pdr_core.conventions import NANOSECONDS, NO_STAMP
 from pdr_core.records import Level, Notice
 from pdr_core.records_power import Charge, DriverAnswer, Energy, Mode, ModeCommand, ModeReport, Outcome, RateAnswer

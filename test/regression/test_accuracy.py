@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.run_choice import each_estimated
-from pdr_bringup_scripts.run_options import RunOptions
+from pdr_bringup_scripts.run.run_choice import each_estimated
+from pdr_bringup_scripts.run.run_options import RunOptions
 from pdr_core.evaluation.metrics import path_length_m
 from pdr_core.evaluation.result import Result, SensorsResult
 from pdr_core.params import Params

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pdr_bringup_scripts.run_choice import estimated
-from pdr_bringup_scripts.run_options import RunOptions
+from pdr_bringup_scripts.run.run_choice import estimated
+from pdr_bringup_scripts.run.run_options import RunOptions
 from pdr_core.evaluation.result import SensorsResult
 from pdr_core.params import Params
 from pdr_core.pipeline import BothFeet

@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pdr_bringup_scripts.offline import run_foot
-from pdr_bringup_scripts.run_options import RunOptions
+from pdr_bringup_scripts.run.offline import run_foot
+from pdr_bringup_scripts.run.run_options import RunOptions
 from pdr_core.evaluation.result import Result
 from pdr_core.params import Params
 from pdr_core.recording import Sensor, Session, open_recording

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 from sensor_msgs.msg import Imu
 
-from pdr_bringup_scripts.chain import NAMESPACE, Chain
+from pdr_bringup_scripts.live.chain import NAMESPACE, Chain
 from pdr_core.params import Params, params_as_mapping
 from pdr_msgs.msg import FilterHealth
 from pdr_nodes.convert import header_stamp_ns

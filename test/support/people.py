@@ -9,8 +9,8 @@ from nav_msgs.msg import Path as Way
 from sensor_msgs.msg import Imu
 from tf2_msgs.msg import TFMessage
 
-from pdr_bringup_scripts.cast import Cast, answered
-from pdr_bringup_scripts.live import for_one_run
+from pdr_bringup_scripts.live.cast import Cast, answered
+from pdr_bringup_scripts.live.live_run import for_one_run
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import BothFeet, BothOutput
 from pdr_core.rate_limit import RateLimit

@@ -6,10 +6,10 @@ from inspect import signature
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts import cheng_tables, dual_tables, gui_tables
-from pdr_bringup_scripts.benches import BENCHES
+from pdr_bringup_scripts.benches import cheng_tables, dual_tables, gui_tables
+from pdr_bringup_scripts.benches.jobs import BENCHES
+from pdr_bringup_scripts.benches.qiu_tables import FILES, as_json, show, write_files
 from pdr_bringup_scripts.commands.bench import bench
-from pdr_bringup_scripts.qiu_tables import FILES, as_json, show, write_files
 from pdr_core.bench.cheng_tables import ChengBench, GainPoint
 from pdr_core.bench.cheng_walks import by_every_method, walk
 from pdr_core.bench.dual_walks import DualTrial, DualWalk, FootTrack

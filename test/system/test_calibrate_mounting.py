@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 
 from pdr_bringup_scripts.commands.calibrate_mounting import mounting
 from pdr_bringup_scripts.problems import Problem
-from pdr_bringup_scripts.run_choice import estimated
-from pdr_bringup_scripts.run_options import RunOptions
+from pdr_bringup_scripts.run.run_choice import estimated
+from pdr_bringup_scripts.run.run_options import RunOptions
 from pdr_core.params import SimulationParams
 from pdr_core.params_file import load_params
 from pdr_core.recording import open_recording

@@ -8,7 +8,7 @@ import pytest
 from pdr_bringup_scripts.commands.compare import compare
 from pdr_bringup_scripts.commands.run import run
 from pdr_bringup_scripts.commands.simulate import simulate
-from pdr_bringup_scripts.run_options import PLACES
+from pdr_bringup_scripts.run.run_options import PLACES
 from pdr_core.bench.heading_ablation import CONSTRAINTS
 from pdr_core.bench.orientations import ORIENTATIONS
 from pdr_core.parameter import choices_of

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.live_recording import messages
+from pdr_bringup_scripts.live.live_recording import messages
 from pdr_core.intake import Ingestion
 from pdr_core.params_file import load_params
 from pdr_core.pipeline import AdaptiveFoot

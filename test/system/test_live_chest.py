@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.live_recording import chest_outputs
+from pdr_bringup_scripts.live.live_recording import chest_outputs
 from pdr_core.params import Params
 from pdr_core.pipeline import ChestCard
 from pdr_core.rate_limit import RateLimit

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.live_recording import messages
+from pdr_bringup_scripts.live.live_recording import messages
 from pdr_core.heading import HeadingConstraint
 from pdr_core.params_file import load_params
 from pdr_core.pipeline import FootInertial

@@ -7,8 +7,8 @@ import pytest
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, MagneticField
 
-from pdr_bringup_scripts.chain import NODES, Chain
-from pdr_bringup_scripts.live_recording import messages
+from pdr_bringup_scripts.live.chain import NODES, Chain
+from pdr_bringup_scripts.live.live_recording import messages
 from pdr_core.params import Params, changed, params_as_mapping
 from pdr_core.pipeline import FootInertial
 from pdr_core.recording import open_recording

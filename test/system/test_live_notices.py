@@ -3,8 +3,8 @@
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.serialization import serialize_message
 
-from pdr_bringup_scripts.listener import bag_writer
-from pdr_bringup_scripts.live_recording import notices
+from pdr_bringup_scripts.live.listener import bag_writer
+from pdr_bringup_scripts.live.live_recording import notices
 from pdr_core.records import Level, Notice
 from pdr_nodes.notice_board import status
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.live_recording import messages
+from pdr_bringup_scripts.live.live_recording import messages
 from pdr_core.params import Params
 from pdr_core.pipeline import FootInertial
 from pdr_core.recording import open_recording

@@ -4,7 +4,7 @@ import pytest
 import rclpy
 from sensor_msgs.msg import Imu, MagneticField
 
-from pdr_bringup_scripts.relay import DriverTopics, Relay
+from pdr_bringup_scripts.live.relay import DriverTopics, Relay
 from support.bench import Bench
 
 pytestmark = pytest.mark.usefixtures("ros_environment")

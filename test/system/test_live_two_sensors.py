@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.live_recording import messages
+from pdr_bringup_scripts.live.live_recording import messages
 from pdr_core.params import Params, SimulationParams
 from pdr_core.pipeline import FootInertial
 from pdr_core.rate_limit import RateLimit

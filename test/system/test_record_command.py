@@ -13,8 +13,8 @@ from mcap.reader import make_reader
 from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message
 
-from pdr_bringup_scripts.chain import Chain
-from pdr_bringup_scripts.listener import Ears
+from pdr_bringup_scripts.live.chain import Chain
+from pdr_bringup_scripts.live.listener import Ears
 from pdr_core.params import Params, changed, params_as_mapping
 from pdr_core.recording import open_recording
 from pdr_core.recording.tum import read_tum

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from pdr_bringup_scripts.live.recorded_params import PARAMETERS, chosen_params
 from pdr_bringup_scripts.problems import Problem
-from pdr_bringup_scripts.recorded_params import PARAMETERS, chosen_params
 from pdr_core.params import Params
 from pdr_core.params_file import params_text
 from pdr_core.recording import Sensor

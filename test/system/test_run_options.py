@@ -7,12 +7,12 @@ from itertools import combinations, product
 import pytest
 
 from pdr_bringup_scripts.commands.run import run as command
-from pdr_bringup_scripts.external_run import run_external
-from pdr_bringup_scripts.known_points import KnownPoint
-from pdr_bringup_scripts.offline import run_adaptive, run_chest, run_foot, run_smoothed
 from pdr_bringup_scripts.problems import Problem
-from pdr_bringup_scripts.run_choice import pipeline_of_one
-from pdr_bringup_scripts.run_options import RULES, RunOptions
+from pdr_bringup_scripts.run.external_run import run_external
+from pdr_bringup_scripts.run.known_points import KnownPoint
+from pdr_bringup_scripts.run.offline import run_adaptive, run_chest, run_foot, run_smoothed
+from pdr_bringup_scripts.run.run_choice import pipeline_of_one
+from pdr_bringup_scripts.run.run_options import RULES, RunOptions
 from pdr_core.params import Params
 
 TYPED = {

@@ -5,9 +5,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts.known_points import KnownPoint, arrivals_of
+from pdr_bringup_scripts.run.known_points import KnownPoint, arrivals_of
+from pdr_bringup_scripts.run.turns import PIECE, Beside, in_turn
 from pdr_bringup_scripts.simulated import pieces
-from pdr_bringup_scripts.turns import PIECE, Beside, in_turn
 from pdr_core.recording import Arrivals, Sensor
 from pdr_core.records import inertial_block, joined, length
 from pdr_core.records_external import FixBlock, unknown_yaws

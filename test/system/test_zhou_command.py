@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts import zhou_tables
-from pdr_bringup_scripts.zhou_cost import StepCost
+from pdr_bringup_scripts.benches import zhou_tables
+from pdr_bringup_scripts.benches.zhou_cost import StepCost
 from pdr_core.bench.zhou_errors import LapResult, result
 from pdr_core.bench.zhou_features import Features
 from pdr_core.bench.zhou_lengths import LengthError, Lengths

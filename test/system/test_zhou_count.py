@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from pdr_bringup_scripts import zhou_count
+from pdr_bringup_scripts.benches import zhou_count
 
 SOURCE = """
 import numpy as np
@@ -41,7 +41,7 @@ def test_a_rewritten_source_does_the_same_and_counts_what_it_does():
 
 def test_a_process_without_a_compiler_counts_and_times_a_step():
     run = subprocess.run(
-        [sys.executable, "-W", "ignore", "-m", "pdr_bringup_scripts.zhou_count", "20", "10", "count"],
+        [sys.executable, "-W", "ignore", "-m", "pdr_bringup_scripts.benches.zhou_count", "20", "10", "count"],
         env={**os.environ, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     found = json.loads(run.stdout)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from pdr_bringup_scripts.benches import Job, default_seeds, run, with_page
+from pdr_bringup_scripts.benches.jobs import Job, default_seeds, run, with_page
 from pdr_bringup_scripts.options import finite
 
 

@@ -24,8 +24,8 @@ def mag(
     """
     from pdr_bringup_scripts.calibrating import as_json, calibrated, check_outputs, write_page, write_parameters
     from pdr_bringup_scripts.calibration_words import in_words
+    from pdr_bringup_scripts.run.which_sensors import only_sensor
     from pdr_bringup_scripts.terminal import Terminal
-    from pdr_bringup_scripts.which_sensors import only_sensor
     from pdr_core.params import params_from_mapping
     from pdr_core.params_file import load_mapping
     from pdr_core.recording import open_recording

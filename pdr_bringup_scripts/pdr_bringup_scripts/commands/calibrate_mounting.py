@@ -21,7 +21,7 @@ def mounting(
     Example: `pdr calibrate mounting walk.csv --out mounting.yaml`, then `pdr run walk.csv --params mounting.yaml`
     """
     from pdr_bringup_scripts.mounting import find, in_words, write_page, write_parameters
-    from pdr_bringup_scripts.which_sensors import only_sensor
+    from pdr_bringup_scripts.run.which_sensors import only_sensor
     from pdr_core.recording import open_recording
 
     session = open_recording(recording, column_map=columns)

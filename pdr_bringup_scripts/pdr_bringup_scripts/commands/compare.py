@@ -28,10 +28,10 @@ def compare(
 
     Example: `pdr compare --detectors all *.mcap --out compared` and then open `compared/compare.html`
     """
-    from pdr_bringup_scripts.comparing import Comparison, compare_recordings
-    from pdr_bringup_scripts.detector_comparing import of_detectors
-    from pdr_bringup_scripts.heading_comparing import of_headings
-    from pdr_bringup_scripts.orientation_comparing import of_orientations
+    from pdr_bringup_scripts.compare.comparing import Comparison, compare_recordings
+    from pdr_bringup_scripts.compare.detector_comparing import of_detectors
+    from pdr_bringup_scripts.compare.heading_comparing import of_headings
+    from pdr_bringup_scripts.compare.orientation_comparing import of_orientations
     from pdr_bringup_scripts.problems import Problem
     from pdr_core.params import Params
     from pdr_core.params_file import load_params

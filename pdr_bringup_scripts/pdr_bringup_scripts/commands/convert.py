@@ -19,9 +19,9 @@ def convert(
 
     Example: `pdr convert walk.bag walk` and then `pdr run walk`
     """
+    from pdr_bringup_scripts.run.which_sensors import chosen_sensors
     from pdr_bringup_scripts.saving import save, slower
     from pdr_bringup_scripts.terminal import Terminal
-    from pdr_bringup_scripts.which_sensors import chosen_sensors
     from pdr_core.recording import open_recording
 
     session, terminal = open_recording(recording, column_map=columns), Terminal()

@@ -19,11 +19,11 @@ def demo(
 
     Example: `pdr demo`, then open the report.html that it names
     """
-    from pdr_bringup_scripts.cast import both_simulated, one_foot, one_switched_foot
-    from pdr_bringup_scripts.chain import private_domain
-    from pdr_bringup_scripts.live import live_run
+    from pdr_bringup_scripts.live.cast import both_simulated, one_foot, one_switched_foot
+    from pdr_bringup_scripts.live.chain import private_domain
+    from pdr_bringup_scripts.live.live_run import live_run
     from pdr_bringup_scripts.problems import Problem
-    from pdr_bringup_scripts.run_folder import new_run_folder, show_calls, show_result
+    from pdr_bringup_scripts.run.run_folder import new_run_folder, show_calls, show_result
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.params import Params, changed
     from pdr_core.params_file import load_params

@@ -32,10 +32,10 @@ def live(
     Example: `pdr live --imu /foot/imu`, or `pdr live --left /left/imu --right /right/imu`, or
     `pdr live --imu /chest/imu --pipeline chest`: stand still for three seconds, walk, and press Ctrl-C
     """
-    from pdr_bringup_scripts.chain import checked_namespace
-    from pdr_bringup_scripts.live_options import LiveOptions
-    from pdr_bringup_scripts.live_sensor import LiveJob, run_on_driver
-    from pdr_bringup_scripts.run_folder import new_run_folder, show_result
+    from pdr_bringup_scripts.live.chain import checked_namespace
+    from pdr_bringup_scripts.live.live_options import LiveOptions
+    from pdr_bringup_scripts.live.live_sensor import LiveJob, run_on_driver
+    from pdr_bringup_scripts.run.run_folder import new_run_folder, show_result
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.params import Params
     from pdr_core.params_file import load_params

@@ -16,8 +16,8 @@ def record(
 
     Example: `pdr record --namespace me --out walk.mcap` before the walk, and then `pdr run walk.mcap --as-recorded`
     """
-    from pdr_bringup_scripts.chain import checked_namespace
-    from pdr_bringup_scripts.recording_live import new_file, record_nodes
+    from pdr_bringup_scripts.live.chain import checked_namespace
+    from pdr_bringup_scripts.live.recording_live import new_file, record_nodes
     from pdr_bringup_scripts.terminal import Terminal
 
     home = checked_namespace(namespace) if namespace.strip("/") else ""

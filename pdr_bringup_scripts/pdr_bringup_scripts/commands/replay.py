@@ -22,11 +22,11 @@ def replay(
 
     Example: `pdr replay walk.csv --rate 2`
     """
-    from pdr_bringup_scripts.chain import checked_namespace
-    from pdr_bringup_scripts.live import live_run
-    from pdr_bringup_scripts.recorded_params import chosen_params
-    from pdr_bringup_scripts.replaying import chosen_feet, replay_cast
-    from pdr_bringup_scripts.run_folder import new_run_folder, show_result
+    from pdr_bringup_scripts.live.chain import checked_namespace
+    from pdr_bringup_scripts.live.live_run import live_run
+    from pdr_bringup_scripts.live.recorded_params import chosen_params
+    from pdr_bringup_scripts.live.replaying import chosen_feet, replay_cast
+    from pdr_bringup_scripts.run.run_folder import new_run_folder, show_result
     from pdr_bringup_scripts.terminal import Terminal
     from pdr_core.params import changed
     from pdr_core.recording import open_recording

@@ -29,12 +29,12 @@ def run(
 
     Example: `pdr run walk.csv --out walk_result` and then open `walk_result/report.html`
     """
-    from pdr_bringup_scripts.known_points import known_point
-    from pdr_bringup_scripts.recorded_params import chosen_params
-    from pdr_bringup_scripts.run_choice import estimated
-    from pdr_bringup_scripts.run_folder import say
-    from pdr_bringup_scripts.run_options import RunOptions
-    from pdr_bringup_scripts.which_sensors import chosen_sensors, feet_of
+    from pdr_bringup_scripts.live.recorded_params import chosen_params
+    from pdr_bringup_scripts.run.known_points import known_point
+    from pdr_bringup_scripts.run.run_choice import estimated
+    from pdr_bringup_scripts.run.run_folder import say
+    from pdr_bringup_scripts.run.run_options import RunOptions
+    from pdr_bringup_scripts.run.which_sensors import chosen_sensors, feet_of
     from pdr_core.recording import open_recording
 
     walk, options = open_recording(recording, column_map=columns), RunOptions(

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from pdr_bringup_scripts import energy_tables
-from pdr_bringup_scripts.energy_tables import Found, Group
+from pdr_bringup_scripts.benches import energy_tables
+from pdr_bringup_scripts.benches.energy_tables import Found, Group
 from pdr_core.bench.energy_walks import (
     ALWAYS,
     SCHEMES,

@@ -1,0 +1,1 @@
+"""What `pdr bench` measures, and its tables."""

@@ -1,0 +1,1 @@
+"""What `pdr compare` measures on recordings."""

@@ -1,0 +1,1 @@
+"""What `pdr run` makes of a recording: who runs, what is kept, which files."""
