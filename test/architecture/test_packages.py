@@ -1,7 +1,9 @@
 """What the packages say of themselves agrees, and nothing of one developer's machine is in them."""
 
 import re
+import runpy
 import subprocess
+from pathlib import Path
 
 import pytest
 from source_tree import CHECKOUT, modules
@@ -26,6 +28,18 @@ def test_set_up_agrees_with_the_manifest(package):
     text = (CHECKOUT / package / "setup.py").read_text(encoding="utf-8")
     assert f'version="{__version__}"' in text
     assert 'license="Apache-2.0"' in text
+
+
+@pytest.mark.parametrize("package", [package for package in PACKAGES if package != "pdr_msgs"])
+def test_what_lies_beside_the_modules_is_installed(package, monkeypatch):
+    asked = {"package_data": {}}
+    monkeypatch.setattr("setuptools.setup", lambda **what: asked.update(what))
+    monkeypatch.chdir(CHECKOUT / package)
+    runpy.run_path("setup.py")
+    homes = {Path(*name.split(".")): patterns for name, patterns in asked["package_data"].items()}
+    installed = {path for home, patterns in homes.items() for pattern in patterns for path in home.glob(pattern)}
+    there = {path for path in Path(package).rglob("*") if path.is_file() and path.suffix not in (".py", ".pyc")}
+    assert there - installed == set()
 
 
 def test_the_changelog_knows_the_version():
