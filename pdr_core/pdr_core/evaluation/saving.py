@@ -10,9 +10,10 @@ import numpy as np
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.evaluation.words import share
 from pdr_core.records import Floats
-from pdr_core.records_power import DriverAnswer, Energy, ModeCommand, Outcome
+from pdr_core.records_power import DriverAnswer, Energy, Mode, ModeCommand, Outcome
 
 SHARES = ("gyro_on_share", "sensor_mah_per_h", "node_mah_per_h", "sensor_saved_share", "node_saved_share")
+STILL_LEARNING = " It was needed to the end: it sleeps once power.calibration_m of a gait are measured, outside turns."
 
 
 class CallRow(NamedTuple):
@@ -49,11 +50,12 @@ class Saving:
         return asdict(self.energy) | shares | {"modes": modes}
 
     def in_words(self) -> str:
-        """Return one sentence."""
+        """Return one sentence, and another where the gyro never slept."""
         e = self.energy
         on, saved = share(100.0 * e.gyro_on_share), share(100.0 * e.sensor_saved_share)
         drew = f"the sensor ({e.part}) drew {e.sensor_mah_per_h:.2f} mAh an hour"
-        return f"The gyro was on for {on} of the time; {drew}, {saved} less than with the gyro always on."
+        told = f"The gyro was on for {on} of the time; {drew}, {saved} less than with the gyro always on."
+        return told + (STILL_LEARNING if {command.mode for command in self.commands} == {Mode.INITIALISING} else "")
 
     def rows(self) -> list[CallRow]:
         """Return the timeline as a table."""

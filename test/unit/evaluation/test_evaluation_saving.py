@@ -37,6 +37,12 @@ def test_words_say_how_long_the_gyro_was_on_and_what_that_saved(make):
     result = replace(make.result_of(), saving=Saving(ENERGY, COMMANDS))
     assert "The gyro was on for 25.0 % of the time" in in_words(result)
     assert "1.44 mAh an hour, 60.0 % less" in in_words(result)
+    assert "power.calibration_m" not in in_words(result)
+
+
+def test_words_say_what_a_gyro_that_never_slept_has_waited_for(make):
+    result = replace(make.result_of(), saving=Saving(ENERGY, COMMANDS[:1]))
+    assert "once power.calibration_m of a gait are measured" in in_words(result)
 
 
 def test_a_result_without_a_switched_gyro_says_nothing_of_charge(make):
