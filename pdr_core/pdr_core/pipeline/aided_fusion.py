@@ -11,7 +11,7 @@ import numpy as np
 
 from pdr_core.conventions import NO_STAMP
 from pdr_core.external.aid import ExternalAid
-from pdr_core.external.worlds import ORIGIN_AND_X, from_another
+from pdr_core.external.worlds import ORIGIN_AND_X, from_another, midway
 from pdr_core.params import Params
 from pdr_core.pipeline.heading_fusion import FusionOutput, HeadingFusion
 from pdr_core.records import (
@@ -66,12 +66,16 @@ class AidedFusion:
 
     @property
     def comparison(self) -> ExternalComparison:
-        """The frame of the foot, or of the body between two; how far their fixes lie from the first foot's track."""
-        foot, aid = next(iter(self._aids.items()))
-        found = aid.comparison
-        if found.frame is None or len(self._aids) == 1:
+        """The frame of the foot, or of the body midway of both; how far the fixes lie from the first foot's track."""
+        found = next(iter(self._aids.values())).comparison
+        if len(self._aids) == 1:
             return found
-        return replace(found, frame=from_another(found.frame, self._fusion.placed_m(foot, ORIGIN_AND_X)))
+        frames = [
+            from_another(aid.frame, self._fusion.placed_m(foot, ORIGIN_AND_X))
+            for foot, aid in self._aids.items()
+            if aid.frame
+        ]
+        return replace(found, frame=midway(frames) if frames else None)
 
     def frame_of(self, foot: str) -> ExternalFrame | None:
         """Return their frame from that of a foot, as it was aligned; None: not known yet."""

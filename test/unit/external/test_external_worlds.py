@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pdr_core.external.worlds import ORIGIN_AND_X, from_another, seen_back
+from pdr_core.external.worlds import ORIGIN_AND_X, from_another, midway, seen_back
 from pdr_core.records_external import ExternalFrame, about_up
 
 FRAME = ExternalFrame(2.0, np.array([5.0, 6.0, 0.5]), 7, np.eye(4), np.array([3.0, 1.0]))
@@ -32,3 +32,20 @@ def test_there_and_back_it_is_the_same_frame(turn_rad):
     assert again.yaw_rad == pytest.approx(FRAME.yaw_rad)
     np.testing.assert_allclose(again.shift_m, FRAME.shift_m, atol=1e-12)
     np.testing.assert_allclose(again.about_m, FRAME.about_m, atol=1e-12)
+
+
+def test_midway_of_two_frames_places_lie_between_and_are_no_surer():
+    covariance = np.diag([0.3, 0.1, 0.02, 0.5])
+    covariance[2, 3] = covariance[3, 2] = 0.05
+    one = ExternalFrame(3.1, np.array([5.0, 6.0, 0.5]), 6, covariance, np.array([3.0, 1.0]))
+    other = ExternalFrame(-3.1, np.array([5.4, 6.2, 0.7]), 10, covariance, np.array([5.0, 3.0]))  # turned on beyond pi
+    found, about_m = midway([one, other]), np.array([4.0, 2.0, 0.0])
+    between_m = 0.5 * (one.theirs_m(about_m) + other.theirs_m(about_m))
+    np.testing.assert_allclose(found.theirs_m(about_m), between_m, atol=1e-12)
+    assert abs(found.yaw_rad) == pytest.approx(np.pi)
+    assert found.clock_ns == 8
+    mean = 0.5 * (one.pose_covariance(about_m) + other.pose_covariance(about_m))
+    np.testing.assert_allclose(found.pose_covariance(about_m), mean, atol=1e-12)
+    assert found.clock_sd_s == pytest.approx(np.sqrt(0.5))
+    assert found.covariance[2, 3] == pytest.approx(0.05)
+    np.testing.assert_allclose(midway([one, one]).covariance, one.covariance, atol=1e-12)
