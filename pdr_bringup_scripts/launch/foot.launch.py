@@ -7,7 +7,15 @@ gait_dr reckons strides while it is off; with a constraint too it holds them its
 Needs the packages launch and launch_ros, which every ROS installation has.
 """
 
-from pdr_bringup_scripts.launching import argument, description, of_person, of_sensor, person_node, sensor_nodes
+from pdr_bringup_scripts.launching import (
+    argument,
+    description,
+    is_true,
+    of_person,
+    of_sensor,
+    person_node,
+    sensor_nodes,
+)
 
 NODES = ("imu_ingestion", "stance_detector", "zupt_ekf")
 ADAPTIVE = ("imu_ingestion", "stance_detector", "gait_dr", "mode_manager")
@@ -30,8 +38,8 @@ def generate_launch_description():
 
 def nodes(said):
     """Return the nodes of the foot, and of the person where heading_fusion holds the heading."""
-    constraint, home, switched = said("constraint"), said("namespace"), said("adaptive") == "true"
-    asked = said("heading_feedback") == "true"
+    constraint, home, switched = said("constraint"), said("namespace"), is_true(said, "adaptive")
+    asked = is_true(said, "heading_feedback")
     if switched and asked:
         raise RuntimeError("adaptive does not go with a second foot")
     given = {"node.foot_frame": said("foot_frame")}

@@ -20,6 +20,15 @@ def argument(name: str, default: Any, description: str) -> DeclareLaunchArgument
     return DeclareLaunchArgument(name, default_value=default, description=description)
 
 
+def is_true(said: Said, name: str) -> bool:
+    """Return whether an argument says true, in the words of launch itself; RuntimeError: neither true nor false."""
+    words = {"true": True, "1": True, "false": False, "0": False}
+    try:
+        return words[said(name).strip().lower()]
+    except KeyError:
+        raise RuntimeError(f"{name} is true or false, not {said(name)!r}") from None
+
+
 def of_person() -> list[DeclareLaunchArgument]:
     """Return the arguments that every launch file has."""
     defaults = PathJoinSubstitution([FindPackageShare("pdr_bringup_scripts"), "config", "foot.yaml"])

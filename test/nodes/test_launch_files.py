@@ -127,6 +127,18 @@ def test_one_foot_whose_gyro_is_switched_has_a_navigator_and_a_manager(launched)
     assert {dict(node.remappings)["set_sample_rate"] for node in nodes} == {"set_sample_rate"}
 
 
+@pytest.mark.parametrize("word", ["True", "1", " true "])
+def test_true_is_true_however_it_is_written(launched, word):
+    assert "mode_manager" in {node.executable for node in launched("foot.launch.py", adaptive=word)}
+
+
+@pytest.mark.parametrize("name", ["adaptive", "heading_feedback"])
+@pytest.mark.parametrize("word", ["yes", "ture", ""])
+def test_what_is_neither_true_nor_false_is_refused(launched, name, word):
+    with pytest.raises(RuntimeError, match=f"{name} is true or false"):
+        launched("foot.launch.py", **{name: word})
+
+
 def test_a_switched_gyro_does_not_go_with_a_second_foot(launched):
     with pytest.raises(RuntimeError, match="second foot"):
         launched("foot.launch.py", adaptive="true", heading_feedback="true")

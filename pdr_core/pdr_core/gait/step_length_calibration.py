@@ -1,4 +1,4 @@
-"""A person's stride length: learned while the gyro is on, used while it is off, and examined (Zhou sections 2.2, 4, 5).
+"""A person's stride length: learned while the gyro is on, used while it is off (Zhou sections 2.2, 5).
 
 Strides of one behaviour whose frequencies lie together, within Zhou's +-0.2 (the print has no unit: read as Hz), make a
 group with coefficients of its own: a person walks in two or three manners. A stride that fits no group opens a new one.
@@ -6,7 +6,6 @@ group with coefficients of its own: a person walks in two or three manners. A st
 
 from collections.abc import Sequence
 from math import hypot, isnan, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
@@ -22,15 +21,6 @@ LONGEST_M = 6.0  # of a sprinter's stride; what is longer was not measured right
 LONGEST_WALKED_M = 2.2  # at 2.5 m/s, where walking ends. A runner's last stride looks like one of a walk
 UNCALIBRATED_SD_M = 0.3  # how far people differ from the prior
 PRIOR_STRIDES = 4  # the prior deviation of a model counts as much as so many strides
-SIGMAS = 3.0  # Zhou Table 3
-
-
-class Examination(NamedTuple):
-    """The model against one stride of the ZUPT filter (Zhou Table 3)."""
-
-    difference_m: float  # |d_KF - d_SL|
-    limit_m: float  # 3 sigma
-    passed: bool
 
 
 class Group:
@@ -133,15 +123,6 @@ class StepLength:
         """Return whether strides such as this one are known well enough to walk without the gyro."""
         group = self.group(step)
         return group is not None and group.ready
-
-    def examine(self, step: GaitStep, length_m: float, length_sd_m: float) -> Examination:
-        """Compare a stride of the ZUPT filter with the model: |d_KF - d_SL| <= 3 sigma (Zhou Table 3).
-
-        Zhou's sigma_d is that of the model; what the filter does not know of the stride is added.
-        """
-        predicted_m, sd_m = self.length(step)
-        difference_m, limit_m = abs(length_m - predicted_m), SIGMAS * float(np.hypot(sd_m, length_sd_m))
-        return Examination(difference_m, limit_m, self.ready(step) and difference_m <= limit_m)
 
     def forget(self, step: GaitStep) -> None:
         """Begin anew with strides such as this one: the examination has failed."""

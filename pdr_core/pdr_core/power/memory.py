@@ -22,7 +22,7 @@ class Memory:
     gait_before: Behaviour = Behaviour.UNKNOWN  # walked when the gyro went off
     walked_m: dict[Behaviour, float] = field(default_factory=dict)  # by the filter
     behaves_ns: int = NO_STAMP  # since when the behaviour is what it is
-    examined_ns: int = NO_STAMP
+    examined_ns: int = NO_STAMP  # the last stride that fitted, or when the calibration ended
     settled_ns: int = NO_STAMP  # from then on the gyro's rates can be trusted; NO_STAMP: it is off
     fit: bool | None = None  # of the strides measured in this mode; None: none was
     calm: int = 0  # strides in a row without a turn
@@ -141,7 +141,7 @@ class Memory:
         self.walked_m[self.gait] = self.walked_m.get(self.gait, 0.0) + stride.filter_m
         if math.isfinite(stride.model_m) and stride.model_sd_m > 0.0:
             self.fit = abs(stride.filter_m - stride.model_m) <= self.params.examine_sd * stride.model_sd_m
-            self.examined_ns = stride.stamp_ns
+            self.examined_ns = stride.stamp_ns if self.fit else self.examined_ns
 
     def _turn_back(self, jump_ns: int) -> None:
         """Follow a clock that has jumped back: stamps of the time before would lie in the future."""

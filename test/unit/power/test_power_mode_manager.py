@@ -79,6 +79,15 @@ def test_a_model_that_fails_is_calibrated_over_l0_again():
     assert person.mode is Mode.DEAD_RECKONING
 
 
+@pytest.mark.parametrize(("off_m", "examined"), [(0.0, False), (0.3, True)])
+def test_strides_of_a_turn_put_an_examination_off_only_if_they_fit(off_m, examined):
+    person, visited = calibrated(examine_every_s=30.0), []
+    for _ in range(4):
+        visited += modes(person.go(5.0, turning=True, stride_m=STRIDE_M + off_m))
+        visited += modes(person.go(15.0, stride_m=STRIDE_M + off_m))
+    assert ("EXAMINING" in visited) is ("INITIALISING" in visited) is examined
+
+
 def test_a_new_behaviour_is_initialised_and_a_known_one_examined():
     person = calibrated()
     person.go(5.0)
