@@ -38,6 +38,7 @@ from pdr_core.records_gait import Angle, FieldHeading, GaitStep
 
 UNUSABLE = "strides whose length, turn or deviation is no number: taken as long as the one before, with all its length"
 NO_START = "the pose to begin from is no number: dead reckoning goes on from where it was"
+KEPT = "no magnetic field told the heading of strides without the gyro: turns in them were guessed; see power.duty"
 DOUBTED = "headings of the field that contradict the track: counted less"
 
 
@@ -120,6 +121,8 @@ class GaitDeadReckoning:
         )
         if not usable:
             self._tally.add("gait_step_unusable", Level.WARN, UNUSABLE, step.stamp_ns)
+        if heading is None:
+            self._tally.add("heading_kept", Level.WARN, KEPT, step.stamp_ns)
         if doubted:
             self._tally.add("heading_doubted", Level.WARN, DOUBTED, step.stamp_ns)
         return Reckoned(self._event(step, start_ns, displacement_m, covariance_m2), nav)

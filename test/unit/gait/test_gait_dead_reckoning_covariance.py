@@ -164,3 +164,11 @@ def test_an_unknown_heading_says_so():
     assert step.yaw_sd_rad == np.pi
     assert finite(nav)
     assert np.linalg.eigvalsh(nav.pose_covariance).min() > 0.0
+
+
+def test_a_heading_that_no_field_tells_is_kept_and_that_is_said():
+    track = begun()
+    track.step(gait_step(1), SURE, STRAIGHT, STRAIGHT, FieldHeading(0.0, 0.1, 0.1))
+    assert track.notices == []
+    track.step(gait_step(2), SURE, STRAIGHT, STRAIGHT)
+    assert [(notice.kind, notice.count) for notice in track.notices] == [("heading_kept", 1)]
