@@ -1,6 +1,5 @@
 """Between messages and records of what somebody else says of the person's place."""
 
-import math
 from typing import TypeAlias
 
 import numpy as np
@@ -8,7 +7,14 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 
-from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock, unknown_yaws, yaw_or_none
+from pdr_core.records_external import (
+    ExternalComparison,
+    ExternalFrame,
+    FixBlock,
+    known_variances,
+    unknown_yaws,
+    yaw_or_none,
+)
 from pdr_nodes.convert import numbers, quaternion_message, stamp_ns, time_message, vector
 
 LEVEL_VARIANCE = 1e-6  # of roll and pitch between two level frames
@@ -25,10 +31,9 @@ def fix_block(message: External) -> FixBlock:
         return FixBlock(stamps, np.array([numbers(message.point)]), np.zeros((1, 3)), unknown_yaws(1))
     covariance = message.pose.covariance
     variances = [float(covariance[7 * axis]) for axis in range(3)]
-    known = [v if math.isfinite(v) and v > 0.0 else 0.0 for v in variances]
     place_m, turn = np.array([numbers(message.pose.pose.position)]), message.pose.pose.orientation
     yaw_rad = yaw_or_none((turn.x, turn.y, turn.z, turn.w))
-    return FixBlock(stamps, place_m, np.array([known]), np.array([yaw_rad]))
+    return FixBlock(stamps, place_m, np.array([known_variances(variances)]), np.array([yaw_rad]))
 
 
 def frame_message(frame: ExternalFrame, at_ns: int, their_frame: str) -> PoseWithCovarianceStamped:

@@ -12,10 +12,11 @@ from pdr_core.parameter import ParameterError
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import AidedFeet, AidedFoot, AidedFusion
 from pdr_core.records import joined, length, part
-from pdr_core.records_external import about_up
+from pdr_core.records_external import FixBlock, about_up, unknown_yaws
 from pdr_core.simulation import simulated_feet
 from pdr_core.simulation.external_source import ExternalSource, fixes, midway
 from pdr_nodes.convert import odometry_message, time_message
+from pdr_nodes.convert_external import fix_block
 from pdr_nodes.external_odometry_node import ExternalOdometryNode
 from pdr_nodes.qos import ANSWERS, LATEST, OWN, STATUS
 from support.bench import Bench
@@ -66,6 +67,16 @@ def message_of(said, i, kind, frame="map"):
     return message
 
 
+@pytest.mark.parametrize(
+    ("said", "known"),
+    [([0.1, 0.2, 0.3], [0.1, 0.2, 0.3]), ([0.1, 0.2, 0.0], [0.1, 0.2, 0.0]), ([np.nan, 4.0, 1.0], [0.0, 0.0, 0.0]),
+     ([0.0, 0.04, 1.0], [0.0, 0.0, 0.0])],
+)  # fmt: skip
+def test_variances_that_are_none_are_as_unknown_as_they_are_in_a_bag(said, known):
+    fixes_said = FixBlock(np.array([BEGIN_NS]), np.zeros((1, 3)), np.array([said]), unknown_yaws(1))
+    np.testing.assert_array_equal(fix_block(message_of(fixes_said, 0, Odometry)).variance_m2, [known])
+
+
 def offline(imu, said):
     foot = AidedFoot(changed(Params(), "external", mode="aid"))
     outputs = [foot.run(part(imu, 0, FEW))]
@@ -95,9 +106,10 @@ def tell(bench, foot, imu, said, kind, taken):
     bench.until(lambda: foot.latest_ns == int(imu.stamp_ns[-1]), "the end of the walk")
 
 
-def last_is(frames, shift_m):
-    """The last frame that was heard lies there."""
-    places = [frame.pose.pose.position for frame in frames[-1:]]
+def last_is(messages, shift_m):
+    """The last frame that was heard, as a pose or as a transform, lies there."""
+    poses = (m.pose.pose.position if hasattr(m, "pose") else m.transforms[0].transform.translation for m in messages)
+    places = list(poses)[-1:]
     return any(np.allclose([place.x, place.y, place.z], shift_m, rtol=0.0, atol=1e-9) for place in places)
 
 
@@ -113,7 +125,8 @@ def test_as_an_aid_it_answers_as_the_aided_foot_does_offline(walk, kind, name, t
         )
         foot = FootOnTopics(bench, "left")
         tell(bench, foot, imu, said, kind, taken)
-        bench.until(lambda: transforms and last_is(frames, aided.frame.shift_m), "the last frame")
+        shift_m = aided.frame.shift_m
+        bench.until(lambda: last_is(frames, shift_m) and last_is(transforms, shift_m), "the last frame")
     told = [answer for answer in foot.answers if answer.position is not None]
     assert len(told) > 10
     assert foot.latest_ns == int(nav.stamp_ns[-1])
