@@ -170,26 +170,48 @@ def test_both_feet_are_aided_as_they_are_offline(walks, taken):
         np.testing.assert_allclose(foot.chain.state.position_m, ends[name].position_m[-1], atol=1e-9)
 
 
-def test_two_known_points_lay_the_track_on_the_map(walk):
+def say_points(bench, walk, frame="map"):
+    """Estimate a walk, and say at two places of it where they are on the map."""
     imu, said = walk
     _, nav = offline(imu, part(said, 0, 0))
     at = [length(nav) // 4, length(nav) // 2]
     map_m = nav.position_m[at] @ about_up(2.0).T + [30.0, -12.0, 0.0]
+    points, odom = bench.publisher(PointStamped, "external", ANSWERS), bench.publisher(Odometry, "odom", OWN)
+    for i in range(length(nav)):
+        odom.publish(odometry_message(nav, i, "odom", "foot"))
+        if i % 50 == 0:
+            bench.spin()
+        if i in at:
+            point = PointStamped()
+            point.header.stamp, point.header.frame_id = time_message(int(nav.stamp_ns[i])), frame
+            point.point.x, point.point.y, point.point.z = map_m[at.index(i)].tolist()
+            bench.until(lambda: not bench.node.waiting, "the estimates so far")
+            points.publish(point)
+            bench.spin()
+
+
+@pytest.mark.parametrize("frame", ["", "odom"])
+def test_a_transform_that_tf2_does_not_take_is_not_broadcast_but_named(walk, frame):
+    with Bench(ExternalOdometryNode, external__message="point", external__publish_tf=True) as bench:
+        frames = bench.hear(PoseWithCovarianceStamped, "external/frame", LATEST)
+        transforms = bench.hear(TFMessage, "/tf_static", LATEST)
+        board = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
+        say_points(bench, walk, frame)
+        bench.until(lambda: frames, "the frame")
+        bench.until(lambda: f"no transform from {frame!r} to 'odom'" in board_text(board), "the notice")
+        assert transforms == []
+
+
+def board_text(board):
+    """What stands on /diagnostics."""
+    return " ".join(status.message for message in board for status in message.status)
+
+
+def test_two_known_points_lay_the_track_on_the_map(walk):
     with Bench(ExternalOdometryNode, external__message="point", external__publish_tf=True) as bench:
         frames = bench.hear(PoseWithCovarianceStamped, "external/frame", LATEST)
         board = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
-        points, odom = bench.publisher(PointStamped, "external", ANSWERS), bench.publisher(Odometry, "odom", OWN)
-        for i in range(length(nav)):
-            odom.publish(odometry_message(nav, i, "odom", "foot"))
-            if i % 50 == 0:
-                bench.spin()
-            if i in at:
-                point = PointStamped()
-                point.header.stamp, point.header.frame_id = time_message(int(nav.stamp_ns[i])), "map"
-                point.point.x, point.point.y, point.point.z = map_m[at.index(i)].tolist()
-                bench.until(lambda: not bench.node.waiting, "the estimates so far")
-                points.publish(point)
-                bench.spin()
+        say_points(bench, walk)
         bench.until(lambda: frames, "the frame")
         bench.until(lambda: "known_points" in repr(board), "the notice")
         assert "no_external" not in repr(board)
