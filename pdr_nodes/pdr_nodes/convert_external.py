@@ -1,5 +1,6 @@
 """Between messages and records of what somebody else says of the person's place."""
 
+import math
 from typing import TypeAlias
 
 import numpy as np
@@ -68,7 +69,7 @@ def comparison_message(found: ExternalComparison, at_ns: int, name: str) -> Diag
         said |= {"ate_m": found.ate_m, "x_m": x, "y_m": y, "z_m": z, "x_sd_m": x_sd, "y_sd_m": y_sd}
         said |= {"yaw_rad": found.frame.yaw_rad, "yaw_sd_rad": yaw_sd}
         said |= {"clock_s": found.frame.clock_ns * 1e-9, "clock_sd_s": clock_sd}
-    values = [KeyValue(key=key, value=f"{value:.9g}") for key, value in said.items()]
+    values = [KeyValue(key=key, value=f"{value:.9g}") for key, value in said.items() if not math.isnan(value)]
     text = "aligned" if found.frame else "not aligned yet: that takes a walk with a turn"
     message = DiagnosticArray(status=[DiagnosticStatus(name=name, message=text, values=values)])
     message.header.stamp = time_message(at_ns)

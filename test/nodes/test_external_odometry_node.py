@@ -12,11 +12,11 @@ from pdr_core.parameter import ParameterError
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import AidedFeet, AidedFoot, AidedFusion
 from pdr_core.records import joined, length, part
-from pdr_core.records_external import FixBlock, about_up, unknown_yaws
+from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock, about_up, unknown_yaws
 from pdr_core.simulation import simulated_feet
 from pdr_core.simulation.external_source import ExternalSource, fixes, midway
 from pdr_nodes.convert import odometry_message, time_message
-from pdr_nodes.convert_external import fix_block
+from pdr_nodes.convert_external import comparison_message, fix_block
 from pdr_nodes.external_odometry_node import ExternalOdometryNode
 from pdr_nodes.qos import ANSWERS, LATEST, OWN, STATUS
 from support.bench import Bench
@@ -245,6 +245,14 @@ def test_compared_it_tells_frame_ate_and_deviations_and_answers_nothing(walk):
     assert found["clock_s"] == pytest.approx(SOURCE.clock_s, abs=0.2)
     assert 0.0 < found["yaw_sd_rad"] < 0.03
     assert heard[-1].status[0].message == "aligned"
+
+
+def test_an_error_that_is_not_known_yet_is_left_out():
+    """As in aid mode, when the frame is known and no fix has been judged by it."""
+    frame = ExternalFrame(0.5, np.zeros(3), 0, np.eye(4), np.zeros(2))
+    found = values_of(comparison_message(ExternalComparison(frame, 0, float("nan")), BEGIN_NS, "node"))
+    assert "ate_m" not in found
+    assert found["yaw_rad"] == 0.5
 
 
 def test_known_points_do_not_aid():
