@@ -20,6 +20,7 @@ from pdr_nodes.convert import numbers, quaternion_message, stamp_ns, time_messag
 
 LEVEL_VARIANCE = 1e-6  # of roll and pitch between two level frames
 HEIGHT_VARIANCE = 1.0  # a median of heights that both may hold for zero
+NOT_ALIGNED = "not aligned yet: that takes a walk of some 20 m and fixes that agree, or two known points"
 
 
 External: TypeAlias = Odometry | PoseWithCovarianceStamped | PointStamped
@@ -70,7 +71,7 @@ def comparison_message(found: ExternalComparison, at_ns: int, name: str) -> Diag
         said |= {"yaw_rad": found.frame.yaw_rad, "yaw_sd_rad": yaw_sd}
         said |= {"clock_s": found.frame.clock_ns * 1e-9, "clock_sd_s": clock_sd}
     values = [KeyValue(key=key, value=f"{value:.9g}") for key, value in said.items() if not math.isnan(value)]
-    text = "aligned" if found.frame else "not aligned yet: that takes a walk with a turn"
+    text = "aligned" if found.frame else NOT_ALIGNED
     message = DiagnosticArray(status=[DiagnosticStatus(name=name, message=text, values=values)])
     message.header.stamp = time_message(at_ns)
     return message
