@@ -84,6 +84,12 @@ def yaw_or_none(quat_xyzw: Sequence[float]) -> float:
     return math.atan2(2.0 * (w * z + x * y), norm - 2.0 * (y * y + z * z)) if norm > 0.5 else math.nan
 
 
+def known_variances(variances: Sequence[float]) -> list[float]:
+    """Return variances of x, y, z; zeros, which say that they are unknown, where one is no variance."""
+    usable = [v if math.isfinite(v) and v > 0.0 else 0.0 for v in variances]
+    return usable if all(usable[:2]) else [0.0, 0.0, 0.0]
+
+
 def unknown_yaws(count: int) -> Floats:
     """Return yaws (n,) of fixes that tell none."""
     return np.full(count, np.nan)

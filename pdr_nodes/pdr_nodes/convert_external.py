@@ -8,11 +8,19 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 
-from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock, unknown_yaws, yaw_or_none
+from pdr_core.records_external import (
+    ExternalComparison,
+    ExternalFrame,
+    FixBlock,
+    known_variances,
+    unknown_yaws,
+    yaw_or_none,
+)
 from pdr_nodes.convert import numbers, quaternion_message, stamp_ns, time_message, vector
 
 LEVEL_VARIANCE = 1e-6  # of roll and pitch between two level frames
 HEIGHT_VARIANCE = 1.0  # a median of heights that both may hold for zero
+NOT_ALIGNED = "not aligned yet: that takes a walk of some 20 m and fixes that agree, or two known points"
 
 
 External: TypeAlias = Odometry | PoseWithCovarianceStamped | PointStamped
@@ -25,10 +33,9 @@ def fix_block(message: External) -> FixBlock:
         return FixBlock(stamps, np.array([numbers(message.point)]), np.zeros((1, 3)), unknown_yaws(1))
     covariance = message.pose.covariance
     variances = [float(covariance[7 * axis]) for axis in range(3)]
-    known = [v if math.isfinite(v) and v > 0.0 else 0.0 for v in variances]
     place_m, turn = np.array([numbers(message.pose.pose.position)]), message.pose.pose.orientation
     yaw_rad = yaw_or_none((turn.x, turn.y, turn.z, turn.w))
-    return FixBlock(stamps, place_m, np.array([known]), np.array([yaw_rad]))
+    return FixBlock(stamps, place_m, np.array([known_variances(variances)]), np.array([yaw_rad]))
 
 
 def frame_message(frame: ExternalFrame, at_ns: int, their_frame: str) -> PoseWithCovarianceStamped:
@@ -63,8 +70,8 @@ def comparison_message(found: ExternalComparison, at_ns: int, name: str) -> Diag
         said |= {"ate_m": found.ate_m, "x_m": x, "y_m": y, "z_m": z, "x_sd_m": x_sd, "y_sd_m": y_sd}
         said |= {"yaw_rad": found.frame.yaw_rad, "yaw_sd_rad": yaw_sd}
         said |= {"clock_s": found.frame.clock_ns * 1e-9, "clock_sd_s": clock_sd}
-    values = [KeyValue(key=key, value=f"{value:.9g}") for key, value in said.items()]
-    text = "aligned" if found.frame else "not aligned yet: that takes a walk with a turn"
+    values = [KeyValue(key=key, value=f"{value:.9g}") for key, value in said.items() if not math.isnan(value)]
+    text = "aligned" if found.frame else NOT_ALIGNED
     message = DiagnosticArray(status=[DiagnosticStatus(name=name, message=text, values=values)])
     message.header.stamp = time_message(at_ns)
     return message

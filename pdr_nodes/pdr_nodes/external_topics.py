@@ -8,7 +8,9 @@ from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
 from pdr_core.conventions import NO_STAMP
+from pdr_core.notices import Tally
 from pdr_core.params import Params
+from pdr_core.records import Level
 from pdr_core.records_external import ExternalComparison, FixBlock
 from pdr_nodes.convert import stamp_ns
 from pdr_nodes.convert_external import External, comparison_message, fix_block, frame_message, frame_transform
@@ -19,6 +21,7 @@ from pdr_nodes.qos import ANSWERS, FOREIGN_INPUT, LATEST, STATUS
 
 KINDS = {"odometry": Odometry, "pose": PoseWithCovarianceStamped}
 PERIOD_S = 1.0
+NO_TF = "no transform from {!r} to {!r}, tf2 takes none: set external.map_frame or node.frame_prefix"
 WORDS = Words("fixes", "no_external", "incompatible_qos_external", "is it running, and external.message its kind?")
 
 
@@ -36,6 +39,8 @@ class ExternalTopics:
         self._node, self._compared, self._world = node, compared, params.node.world_frame
         self._named, self._their_frame = p.map_frame, p.map_frame
         self._at_ns = NO_STAMP  # of the last fix, their clock
+        self._tally = Tally()
+        node.tell("external_tf", lambda: self._tally.notices)
         if p.known_points:  # rare, so that silence is no fault
             node.part(Hearing(node, PointStamped, "external", lambda message: take(self._heard(message)), ANSWERS))
         else:
@@ -58,6 +63,9 @@ class ExternalTopics:
         if found.frame:
             at_ns = self._at_ns - found.frame.clock_ns
             self._frame.publish(frame_message(found.frame, at_ns, self._their_frame))
-            if self._tf:
+            if self._tf and self._their_frame not in ("", self._world):
                 transform = frame_transform(found.frame, at_ns, self._their_frame, self._world)
                 self._tf.publish(TFMessage(transforms=[transform]))
+            elif self._tf:
+                text = NO_TF.format(self._their_frame, self._world)
+                self._tally.once("external_no_tf", Level.WARN, text, at_ns)

@@ -1,8 +1,10 @@
 """Somebody says where a track is now: topic `initialpose`, as RViz has a button for, or service `reset_estimate`."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
-from geometry_msgs.msg import PoseWithCovarianceStamped
+import numpy as np
+from geometry_msgs.msg import PoseWithCovariance, PoseWithCovarianceStamped
 
 from pdr_core.notices import Tally
 from pdr_core.records import Level, Notice, PoseEstimate
@@ -13,6 +15,7 @@ from pdr_nodes.managed import ManagedNode
 from pdr_nodes.qos import ANSWERS
 
 PLACED = "the track was placed by initialpose"
+LEAST_VARIANCE = 1e-6  # [m^2, rad^2] RViz's button says 0 of the height; nobody knows it so well
 
 
 class Placing:
@@ -37,7 +40,7 @@ class Placing:
             self._tally.add("initialpose_frame", Level.WARN, text, at_ns)
             return
         try:
-            self._place(pose_estimate(message.pose), True)
+            self._place(told_pose(message.pose), True)
         except ValueError as error:
             self._tally.add("initialpose_unusable", Level.WARN, f"initialpose is left out: {error}", at_ns)
         else:
@@ -45,9 +48,18 @@ class Placing:
 
     def _asked(self, request: ResetEstimate.Request, response: ResetEstimate.Response) -> ResetEstimate.Response:
         try:
-            self._place(pose_estimate(request.pose), request.keep_biases)
+            self._place(told_pose(request.pose), request.keep_biases)
         except ValueError as error:
             response.success, response.message = False, str(error)
         else:
             response.success, response.message = True, "the estimate starts anew with the next sample"
         return response
+
+
+def told_pose(message: PoseWithCovariance) -> PoseEstimate:
+    """Return a message as a pose whose covariance is positive definite; ValueError if it is no pose."""
+    pose = pose_estimate(message)
+    covariance = pose.covariance + LEAST_VARIANCE * np.eye(6)
+    if not np.allclose(covariance, covariance.T) or np.linalg.eigvalsh(covariance)[0] <= 0.0:
+        raise ValueError("the covariance is none: it is not symmetric and positive")
+    return replace(pose, covariance=covariance)

@@ -12,10 +12,11 @@ from pdr_core.parameter import ParameterError
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import AidedFeet, AidedFoot, AidedFusion
 from pdr_core.records import joined, length, part
-from pdr_core.records_external import about_up
+from pdr_core.records_external import ExternalComparison, ExternalFrame, FixBlock, about_up, unknown_yaws
 from pdr_core.simulation import simulated_feet
 from pdr_core.simulation.external_source import ExternalSource, fixes, midway
 from pdr_nodes.convert import odometry_message, time_message
+from pdr_nodes.convert_external import comparison_message, fix_block
 from pdr_nodes.external_odometry_node import ExternalOdometryNode
 from pdr_nodes.qos import ANSWERS, LATEST, OWN, STATUS
 from support.bench import Bench
@@ -66,6 +67,16 @@ def message_of(said, i, kind, frame="map"):
     return message
 
 
+@pytest.mark.parametrize(
+    ("said", "known"),
+    [([0.1, 0.2, 0.3], [0.1, 0.2, 0.3]), ([0.1, 0.2, 0.0], [0.1, 0.2, 0.0]), ([np.nan, 4.0, 1.0], [0.0, 0.0, 0.0]),
+     ([0.0, 0.04, 1.0], [0.0, 0.0, 0.0])],
+)  # fmt: skip
+def test_variances_that_are_none_are_as_unknown_as_they_are_in_a_bag(said, known):
+    fixes_said = FixBlock(np.array([BEGIN_NS]), np.zeros((1, 3)), np.array([said]), unknown_yaws(1))
+    np.testing.assert_array_equal(fix_block(message_of(fixes_said, 0, Odometry)).variance_m2, [known])
+
+
 def offline(imu, said):
     foot = AidedFoot(changed(Params(), "external", mode="aid"))
     outputs = [foot.run(part(imu, 0, FEW))]
@@ -95,9 +106,10 @@ def tell(bench, foot, imu, said, kind, taken):
     bench.until(lambda: foot.latest_ns == int(imu.stamp_ns[-1]), "the end of the walk")
 
 
-def last_is(frames, shift_m):
-    """The last frame that was heard lies there."""
-    places = [frame.pose.pose.position for frame in frames[-1:]]
+def last_is(messages, shift_m):
+    """The last frame that was heard, as a pose or as a transform, lies there."""
+    poses = (m.pose.pose.position if hasattr(m, "pose") else m.transforms[0].transform.translation for m in messages)
+    places = list(poses)[-1:]
     return any(np.allclose([place.x, place.y, place.z], shift_m, rtol=0.0, atol=1e-9) for place in places)
 
 
@@ -113,7 +125,8 @@ def test_as_an_aid_it_answers_as_the_aided_foot_does_offline(walk, kind, name, t
         )
         foot = FootOnTopics(bench, "left")
         tell(bench, foot, imu, said, kind, taken)
-        bench.until(lambda: transforms and last_is(frames, aided.frame.shift_m), "the last frame")
+        shift_m = aided.frame.shift_m
+        bench.until(lambda: last_is(frames, shift_m) and last_is(transforms, shift_m), "the last frame")
     told = [answer for answer in foot.answers if answer.position is not None]
     assert len(told) > 10
     assert foot.latest_ns == int(nav.stamp_ns[-1])
@@ -157,26 +170,48 @@ def test_both_feet_are_aided_as_they_are_offline(walks, taken):
         np.testing.assert_allclose(foot.chain.state.position_m, ends[name].position_m[-1], atol=1e-9)
 
 
-def test_two_known_points_lay_the_track_on_the_map(walk):
+def say_points(bench, walk, frame="map"):
+    """Estimate a walk, and say at two places of it where they are on the map."""
     imu, said = walk
     _, nav = offline(imu, part(said, 0, 0))
     at = [length(nav) // 4, length(nav) // 2]
     map_m = nav.position_m[at] @ about_up(2.0).T + [30.0, -12.0, 0.0]
+    points, odom = bench.publisher(PointStamped, "external", ANSWERS), bench.publisher(Odometry, "odom", OWN)
+    for i in range(length(nav)):
+        odom.publish(odometry_message(nav, i, "odom", "foot"))
+        if i % 50 == 0:
+            bench.spin()
+        if i in at:
+            point = PointStamped()
+            point.header.stamp, point.header.frame_id = time_message(int(nav.stamp_ns[i])), frame
+            point.point.x, point.point.y, point.point.z = map_m[at.index(i)].tolist()
+            bench.until(lambda: not bench.node.waiting, "the estimates so far")
+            points.publish(point)
+            bench.spin()
+
+
+@pytest.mark.parametrize("frame", ["", "odom"])
+def test_a_transform_that_tf2_does_not_take_is_not_broadcast_but_named(walk, frame):
+    with Bench(ExternalOdometryNode, external__message="point", external__publish_tf=True) as bench:
+        frames = bench.hear(PoseWithCovarianceStamped, "external/frame", LATEST)
+        transforms = bench.hear(TFMessage, "/tf_static", LATEST)
+        board = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
+        say_points(bench, walk, frame)
+        bench.until(lambda: frames, "the frame")
+        bench.until(lambda: f"no transform from {frame!r} to 'odom'" in board_text(board), "the notice")
+        assert transforms == []
+
+
+def board_text(board):
+    """What stands on /diagnostics."""
+    return " ".join(status.message for message in board for status in message.status)
+
+
+def test_two_known_points_lay_the_track_on_the_map(walk):
     with Bench(ExternalOdometryNode, external__message="point", external__publish_tf=True) as bench:
         frames = bench.hear(PoseWithCovarianceStamped, "external/frame", LATEST)
         board = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
-        points, odom = bench.publisher(PointStamped, "external", ANSWERS), bench.publisher(Odometry, "odom", OWN)
-        for i in range(length(nav)):
-            odom.publish(odometry_message(nav, i, "odom", "foot"))
-            if i % 50 == 0:
-                bench.spin()
-            if i in at:
-                point = PointStamped()
-                point.header.stamp, point.header.frame_id = time_message(int(nav.stamp_ns[i])), "map"
-                point.point.x, point.point.y, point.point.z = map_m[at.index(i)].tolist()
-                bench.until(lambda: not bench.node.waiting, "the estimates so far")
-                points.publish(point)
-                bench.spin()
+        say_points(bench, walk)
         bench.until(lambda: frames, "the frame")
         bench.until(lambda: "known_points" in repr(board), "the notice")
         assert "no_external" not in repr(board)
@@ -210,6 +245,14 @@ def test_compared_it_tells_frame_ate_and_deviations_and_answers_nothing(walk):
     assert found["clock_s"] == pytest.approx(SOURCE.clock_s, abs=0.2)
     assert 0.0 < found["yaw_sd_rad"] < 0.03
     assert heard[-1].status[0].message == "aligned"
+
+
+def test_an_error_that_is_not_known_yet_is_left_out():
+    """As in aid mode, when the frame is known and no fix has been judged by it."""
+    frame = ExternalFrame(0.5, np.zeros(3), 0, np.eye(4), np.zeros(2))
+    found = values_of(comparison_message(ExternalComparison(frame, 0, float("nan")), BEGIN_NS, "node"))
+    assert "ate_m" not in found
+    assert found["yaw_rad"] == 0.5
 
 
 def test_known_points_do_not_aid():

@@ -10,6 +10,7 @@ from nav_msgs.msg import Odometry
 
 from pdr_core.records import part
 from pdr_msgs.msg import StanceImu
+from pdr_nodes.placing import LEAST_VARIANCE, told_pose
 from pdr_nodes.qos import ANSWERS, STATUS
 from pdr_nodes.zupt_ekf_node import ZuptEkfNode
 from support.bench import Bench
@@ -26,6 +27,13 @@ def pose(frame="odom", x=5.0, variance=0.25):
     covariance = np.zeros(36)
     covariance[[0, 7, 35]] = variance, variance, 0.07
     message.pose.covariance = covariance
+    return message
+
+
+def said(*elements):
+    """A pose whose covariance has 5 at some elements of its 36."""
+    message = pose()
+    message.pose.covariance[list(elements)] = 5.0
     return message
 
 
@@ -60,6 +68,18 @@ def test_the_track_goes_on_there_with_the_deviations_that_were_told(run):
     assert 2.0 * math.atan2(there.orientation.z, there.orientation.w) == pytest.approx(YAW_RAD, abs=0.02)
     assert covariance[0, 0] == pytest.approx(0.25, rel=0.05)
     assert covariance[5, 5] == pytest.approx(0.07, rel=0.05)
+
+
+def test_what_is_told_with_a_variance_of_zero_as_rviz_tells_the_height_is_not_known_for_sure():
+    told = told_pose(pose().pose)
+    assert np.linalg.eigvalsh(told.covariance)[0] == pytest.approx(LEAST_VARIANCE)
+    assert np.diag(told.covariance)[[0, 5]] == pytest.approx([0.25, 0.07], rel=1e-4)
+
+
+@pytest.mark.parametrize("beside", [(1,), (1, 6)], ids=["not symmetric", "not positive"])
+def test_a_covariance_that_is_none_is_refused(beside):
+    with pytest.raises(ValueError, match="the covariance is none"):
+        told_pose(said(*beside).pose)
 
 
 @pytest.mark.parametrize(

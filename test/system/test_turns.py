@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.run.known_points import KnownPoint, arrivals_of
 from pdr_bringup_scripts.run.turns import PIECE, Beside, in_turn
 from pdr_bringup_scripts.simulated import pieces
@@ -87,3 +88,8 @@ def test_points_beside_no_samples_are_none(counts: tuple[int, int]) -> None:
     come = arrivals_of([KnownPoint(4.0, 1.0, 2.0)], [sensor(str(i), n) for i, n in enumerate(counts)])
     assert length(come.fixes) == 0
     assert come.after_samples.shape == (0, 2)
+
+
+def test_the_known_point_outside_the_recording_is_the_one_that_is_named() -> None:
+    with pytest.raises(Problem, match=r"--at -3: the recording of left lasts"):
+        arrivals_of([KnownPoint(4.0, 1.0, 2.0), KnownPoint(-3.0, 0.0, 0.0)], [sensor("left", 1_000)])

@@ -35,7 +35,8 @@ class External(NamedTuple):
         if not self.topic:
             return points_in_words(seen)
         if frame is None:
-            return f"{self.topic} could not be laid beside the track: its frame takes a turn, and fixes that agree."
+            takes = "its frame takes a walk of some 20 m, and fixes that agree"
+            return f"{self.topic} could not be laid beside the track: {takes}."
         sd_deg, sd_s = np.degrees(np.sqrt(frame.covariance[2, 2])), np.sqrt(frame.covariance[3, 3])
         turn = f"its frame is turned by {np.degrees(frame.yaw_rad):.1f} ± {sd_deg:.1f} deg"
         clock = f"its clock is ahead by {frame.clock_ns * 1e-9:.2f} ± {sd_s:.2f} s"

@@ -8,7 +8,7 @@ import numpy as np
 from pdr_core.conventions import NANOSECONDS
 from pdr_core.recording.bag_messages import BagReader
 from pdr_core.recording.session import Arrivals, RecordingError
-from pdr_core.records_external import FixBlock, yaw_or_none
+from pdr_core.records_external import FixBlock, known_variances, yaw_or_none
 
 WITH_COVARIANCE = {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseWithCovarianceStamped"}
 KINDS = WITH_COVARIANCE | {"geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"}
@@ -51,10 +51,4 @@ def row(message: Any) -> tuple[int, list[float]]:
         turn = place.orientation
         place, yaw_rad = place.position, yaw_or_none((turn.x, turn.y, turn.z, turn.w))
     variances = [float(covariance[7 * axis]) for axis in range(3)]
-    return stamp.sec * NANOSECONDS + stamp.nanosec, [place.x, place.y, place.z, *known(variances), yaw_rad]
-
-
-def known(variances: list[float]) -> list[float]:
-    """Return variances of x, y, z; zeros, which say that they are unknown, where one is no variance."""
-    usable = all(np.isfinite(v) and v > 0.0 for v in variances[:2])
-    return [v if np.isfinite(v) and v > 0.0 else 0.0 for v in variances] if usable else [0.0, 0.0, 0.0]
+    return stamp.sec * NANOSECONDS + stamp.nanosec, [place.x, place.y, place.z, *known_variances(variances), yaw_rad]

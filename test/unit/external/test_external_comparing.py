@@ -5,6 +5,7 @@ import pytest
 from external_cases import BEGIN_NS, nav_rows, seen_fixes, way
 
 from pdr_core.evaluation.alignment import over_whole
+from pdr_core.evaluation.external import External
 from pdr_core.external.comparing import Comparing, RunningAte
 from pdr_core.params import ExternalParams
 from pdr_core.records import part
@@ -39,6 +40,13 @@ def compared(fixes, t, places_m, params=PARAMS):
         )
         told = reached
     return comparing
+
+
+def test_a_straight_walk_is_enough_and_who_waits_for_the_frame_is_told_so():
+    t, places_m = way(40.0)
+    assert compared(seen_fixes(t, places_m, 2.0, SHIFT_M, 0.4, seed=2), t, places_m).comparison.frame
+    words = External("/robot", False, Comparing(PARAMS).comparison).in_words()
+    assert "takes a walk of some 20 m" in words
 
 
 def test_frame_clock_and_ate_come_out():
