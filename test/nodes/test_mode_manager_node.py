@@ -58,7 +58,8 @@ def test_without_a_driver_the_gyro_is_wanted_on_and_the_fault_is_named(rig):
     assert {"driver_timed_out", "no_driver"} <= rig.kinds()
 
 
-def test_a_driver_that_refuses_keeps_its_gyro_on(rig, tmp_path):
+def test_a_driver_that_refuses_keeps_its_gyro_on(patient, tmp_path):
+    rig = patient
     with fake_driver(rig, "refuses", tmp_path / "driver.log") as log:
         fault = rig.walk_until(faulty, "a fault")
         assert fault.gyro_requested
@@ -82,7 +83,8 @@ def test_a_driver_that_sleeps_holds_nobody_up(rig, tmp_path):
         assert "driver_timed_out" in rig.kinds()
 
 
-def test_a_driver_that_dies_in_mid_call_is_named_and_taken_back(rig, tmp_path):
+def test_a_driver_that_dies_in_mid_call_is_named_and_taken_back(patient, tmp_path):
+    rig = patient
     with fake_driver(rig, "dies", tmp_path / "driver.log") as log:
         rig.walk_until(faulty, "a fault")
         assert asked(log) == ["on", "off"]
@@ -94,7 +96,8 @@ def test_a_driver_that_dies_in_mid_call_is_named_and_taken_back(rig, tmp_path):
     assert "driver_timed_out" in rig.kinds()
 
 
-def test_a_driver_that_was_started_again_is_known_by_its_gyro_and_by_its_clock(rig, tmp_path):
+def test_a_driver_that_was_started_again_is_known_by_its_gyro_and_by_its_clock(patient, tmp_path):
+    rig = patient
     with fake_driver(rig, "obeys", tmp_path / "driver.log") as log:
         rig.walk_until(reckons, "dead reckoning")
         rig.now_ns = BEGIN_NS - 10**12
@@ -106,12 +109,13 @@ def test_a_driver_that_was_started_again_is_known_by_its_gyro_and_by_its_clock(r
         assert "driver_died" in rig.kinds()
 
 
-def test_where_nothing_is_heard_any_more_the_gyro_is_wanted_on_by_the_wall_clock(rig, tmp_path):
+def test_where_nothing_is_heard_any_more_the_gyro_is_wanted_on_by_the_wall_clock(patient, tmp_path):
+    rig = patient
     with fake_driver(rig, "obeys", tmp_path / "driver.log") as log:
         rig.walk_until(reckons, "dead reckoning")
-        rig.until(lambda: asked(log)[-1] == "on", "the gyro on", 10.0)
-        rig.until(lambda: rig.last.gyro_powered, "its acknowledgement", 10.0)
-        rig.until(lambda: "no_input_walk" in rig.kinds(), "a notice", 10.0)
+        rig.until(lambda: asked(log)[-1] == "on", "the gyro on")
+        rig.until(lambda: rig.last.gyro_powered, "its acknowledgement")
+        rig.until(lambda: "no_input_walk" in rig.kinds(), "a notice")
     assert any("nothing was heard" in said.reason for said in rig.modes)
 
 
@@ -144,8 +148,8 @@ def test_a_gyro_that_wakes_by_itself_is_counted_and_one_that_does_not_is_named(t
         assert 2.0 < rig.last.duration - rig.last.gyro_on < 7.0
         rig.gyro_on = False
         assert "sleeps on although the foot walks" in rig.walk_until(faulty, "a fault").reason
-        rig.until(lambda: asked(log)[-1] == "on", "the gyro on", 10.0)
-        rig.until(lambda: "driver_died" in rig.kinds(), "a notice", 10.0)
+        rig.until(lambda: asked(log)[-1] == "on", "the gyro on")
+        rig.until(lambda: "driver_died" in rig.kinds(), "a notice")
 
 
 def test_a_sensor_that_cannot_switch_its_gyro_keeps_it_on(tmp_path):
@@ -155,13 +159,13 @@ def test_a_sensor_that_cannot_switch_its_gyro_keeps_it_on(tmp_path):
         rig.walk(2.0)
         assert (rig.last.mode, rig.last.gyro_powered) == (Says.MODE_INITIALISING, True)
         assert (asked(log)[:3], asked(log).count("swings")) == (["on", "swings", "on"], 1)
-        rig.until(lambda: "driver_refused" in rig.kinds(), "a notice", 10.0)
+        rig.until(lambda: "driver_refused" in rig.kinds(), "a notice")
 
 
 def test_a_call_that_is_open_when_the_samples_end_is_given_up_by_the_wall_clock():
     with Rig("modes_open", answer_timeout_s=0.5) as rig:
         rig.walk(0.2)
         assert rig.last.answer == Says.ANSWER_PENDING
-        rig.until(lambda: faulty(rig.last), "a fault without a sample", 10.0)
+        rig.until(lambda: faulty(rig.last), "a fault without a sample")
         (given_up,) = [said for said in rig.modes if said.answer == Says.ANSWER_TIMED_OUT][:1]
     assert "nobody offers set_gyro_power" in given_up.answer_text
