@@ -23,12 +23,13 @@ from support.walks import BEGIN_NS, imu_messages
 
 WALKS = {"alice": ("rectangle", 0.0), "bob": ("straight", 2.0)}  # the walk and the yaw at its start
 WITHIN_S = 120.0
+PATIENT_S = 20.0  # a busy machine is no node that has ended
 
 
 def params_of(person: str) -> Params:
     """Return how the nodes of a person are set: her frames are told from those of others by her name."""
     turned = changed(Params(), "filter", initial_yaw_rad=WALKS[person][1])
-    return changed(turned, "node", frame_prefix=f"{person}/")
+    return changed(turned, "node", frame_prefix=f"{person}/", answer_timeout_s=PATIENT_S)
 
 
 def walk_of(person: str) -> dict[str, ImuBlock]:
