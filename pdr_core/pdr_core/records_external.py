@@ -54,8 +54,12 @@ class ExternalFrame:
 
     def pose_covariance(self, ours_m: Floats) -> Floats:
         """Return how well a place (2,) or (3,) of ours and the yaw are known in their frame by it alone, (3, 3)."""
-        T = lever(about_up(self.yaw_rad)[:2, :2] @ (np.asarray(ours_m)[:2] - self.about_m))
+        T = self.lever_to(ours_m)
         return T @ self.covariance[:3, :3] @ T.T
+
+    def lever_to(self, ours_m: Floats) -> Floats:
+        """Return what errors of x, y and yaw at `about_m` become at a place (2,) or (3,) of ours, (3, 3)."""
+        return lever(about_up(self.yaw_rad)[:2, :2] @ (np.asarray(ours_m)[:2] - self.about_m))
 
     def place_covariance_m2(self, ours_m: Floats) -> Floats:
         """Return that of the place alone, (2, 2)."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from pdr_core.maths.circular import circular_mean_rad
 from pdr_core.records import Floats
-from pdr_core.records_external import ExternalFrame, about_up, lever
+from pdr_core.records_external import ExternalFrame, about_up
 
 ORIGIN_AND_X = np.eye(3)[[2, 0]] * [1.0, 1.0, 0.0]  # of a world, (2, 3)
 
@@ -33,7 +33,7 @@ def midway(frames: Sequence[ExternalFrame]) -> ExternalFrame:
 def covariance_at(frame: ExternalFrame, about_m: Floats) -> Floats:
     """Return the covariance (4, 4) of a frame with x and y at another place (2,) of ours."""
     T = np.eye(4)
-    T[:3, :3] = lever(about_up(frame.yaw_rad)[:2, :2] @ (about_m - frame.about_m))
+    T[:3, :3] = frame.lever_to(about_m)
     return T @ frame.covariance @ T.T
 
 
