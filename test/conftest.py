@@ -7,6 +7,7 @@ import pytest
 from hypothesis import settings
 
 from support.domain import own_domain
+from support.participants import participants
 
 CHECKOUT = Path(__file__).resolve().parents[1]
 QUICK_DISCOVERY = CHECKOUT / "pdr_bringup_scripts" / "pdr_bringup_scripts" / "live" / "fastdds_quick.xml"
@@ -35,3 +36,11 @@ def ros_environment(tmp_path_factory):
         patch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(QUICK_DISCOVERY))
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
         yield domain
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _leaves_the_graph():
+    """What a file of tests put on the ROS graph is gone with it, and not when garbage is collected."""
+    before = participants()
+    yield
+    assert participants() <= before, "a test left its nodes to the garbage collector: destroy them where they are made"

@@ -1,7 +1,6 @@
 """What all nodes have in common: their states, what they say of themselves, what they keep and what they drop."""
 
 import gc
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,6 +22,7 @@ from pdr_nodes.qos import STATUS
 from pdr_nodes.stance_detector_node import StanceDetectorNode
 from pdr_nodes.zupt_ekf_node import ZuptEkfNode
 from support.bench import Bench
+from support.participants import participants
 from support.walks import BEGIN_NS, imu_messages, judged, stamps, stance_messages, still, straight_walk
 
 NODES = pytest.mark.parametrize(
@@ -42,11 +42,6 @@ def told_to(bench, transition):
 
 def state(bench):
     return bench.call(GetState, f"{bench.node.NAME}/get_state").current_state.label
-
-
-def participants():
-    """Count the participants of this process: each has one thread for its events."""
-    return sum(name.read_text().startswith("dds.ev.") for name in Path("/proc/self/task").glob("*/comm"))
 
 
 @NODES

@@ -104,9 +104,7 @@ def test_two_filters_that_publish_one_odom_is_an_error_while_both_are_active():
         diagnostics = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
         bench.until(lambda: diagnostics, "a diagnosis")
         assert "not_alone" not in streams(diagnostics, "zupt_ekf")
-        other = ZuptEkfNode()
-        other.start()
-        bench.executor.add_node(other)
+        other = bench.start(ZuptEkfNode)
         bench.until(lambda: "not_alone" in streams(diagnostics, "zupt_ekf"), "the notice")
         said = streams(diagnostics, "zupt_ekf")["not_alone"]
         assert said.level is Level.ERROR

@@ -24,30 +24,34 @@ class Bench:
         self._params = {name.replace("__", ".", 1): value for name, value in params.items()}
 
     def __enter__(self) -> "Bench":
-        self.node = None
+        self.node: Node | None = None
+        self._started: list[Node] = []
         given = [part for name, value in self._params.items() for part in ("-p", f"{name}:={yaml_text(value)}")]
         rclpy.init(args=["--ros-args", "-r", f"__ns:=/{self.namespace}", "--log-level", "error", *given])
         self.executor = EventsExecutor()
         self.me = Node("bench", start_parameter_services=False, use_global_arguments=True)
         self.executor.add_node(self.me)
         try:
-            self.node = self._make_node() if self._make_node else None
-            if self.node:
-                self.node.start()
+            self.node = self.start(self._make_node) if self._make_node else None
         except Exception:
             self.__exit__()
             raise
-        if self.node:
-            self.executor.add_node(self.node)
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Leave nothing of the graph: participants of one process may lock each other for good (Fast DDS 2.14)."""
+        """Leave nothing of it on the graph."""
         self.executor.shutdown()
-        for node in (self.node, self.me):
-            if node:
-                node.destroy_node()
+        for node in (*self._started, self.me):
+            node.destroy_node()
         rclpy.try_shutdown()
+
+    def start(self, make_node: Callable[[], Node]) -> Node:
+        """Make a node, start it and serve it as long as the bench stands."""
+        node = make_node()
+        self._started.append(node)
+        node.start()
+        self.executor.add_node(node)
+        return node
 
     def hear(self, kind: type, topic: str, qos: object = OWN) -> list:
         """Return a list that grows with every message that comes."""
