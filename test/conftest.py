@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from pdr_bringup_scripts.live.chain import QUICK_DISCOVERY
 from support.domain import own_domain
 from support.participants import participants
 
 CHECKOUT = Path(__file__).resolve().parents[1]
-QUICK_DISCOVERY = CHECKOUT / "pdr_bringup_scripts" / "pdr_bringup_scripts" / "live" / "fastdds_quick.xml"
 
 settings.register_profile("repeatable", deadline=None, derandomize=True)  # the time to compile is no failure
 settings.load_profile("repeatable")

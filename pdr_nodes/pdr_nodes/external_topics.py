@@ -22,6 +22,7 @@ from pdr_nodes.qos import ANSWERS, FOREIGN_INPUT, LATEST, STATUS
 KINDS = {"odometry": Odometry, "pose": PoseWithCovarianceStamped}
 PERIOD_S = 1.0
 NO_TF = "no transform from {!r} to {!r}, tf2 takes none: set external.map_frame or node.frame_prefix"
+OTHER_FRAME = "fixes came in frame {!r} and now in {!r}, and are laid in one: remap `external` to one source"
 WORDS = Words("fixes", "no_external", "incompatible_qos_external", "is it running, and external.message its kind?")
 
 
@@ -38,9 +39,10 @@ class ExternalTopics:
         p = params.external
         self._node, self._compared, self._world = node, compared, params.node.world_frame
         self._named, self._their_frame = p.map_frame, p.map_frame
+        self._heard_in: str | None = None  # the frame of the last fix
         self._at_ns = NO_STAMP  # of the last fix, their clock
         self._tally = Tally()
-        node.tell("external_tf", lambda: self._tally.notices)
+        node.tell("external_frames", lambda: self._tally.notices)
         if p.known_points:  # rare, so that silence is no fault
             node.part(Hearing(node, PointStamped, "external", lambda message: take(self._heard(message)), ANSWERS))
         else:
@@ -51,8 +53,10 @@ class ExternalTopics:
         node.every(PERIOD_S, self._say)
 
     def _heard(self, message: External) -> FixBlock:
-        self._their_frame = self._named or message.header.frame_id
-        self._at_ns = stamp_ns(message.header.stamp)
+        frame, self._at_ns = message.header.frame_id, stamp_ns(message.header.stamp)
+        if self._heard_in not in (None, frame):
+            self._tally.add("external_other_frame", Level.WARN, OTHER_FRAME.format(self._heard_in, frame), self._at_ns)
+        self._heard_in, self._their_frame = frame, self._named or frame
         return fix_block(message)
 
     def _say(self) -> None:

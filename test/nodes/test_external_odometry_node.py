@@ -202,6 +202,18 @@ def test_a_transform_that_tf2_does_not_take_is_not_broadcast_but_named(walk, fra
         assert transforms == []
 
 
+def test_fixes_of_two_frames_on_one_topic_are_named(walk):
+    _, said = walk
+    with Bench(ExternalOdometryNode) as bench:
+        board = bench.hear(DiagnosticArray, "/diagnostics", STATUS)
+        source = bench.publisher(Odometry, "external")
+        bench.feed(source, [message_of(said, i, Odometry, "map") for i in range(3)])
+        bench.until(lambda: board, "a diagnosis")
+        assert "fixes came in frame" not in board_text(board)
+        bench.feed(source, [message_of(said, 3, Odometry, "utm")])
+        bench.until(lambda: "fixes came in frame 'map' and now in 'utm'" in board_text(board), "the notice")
+
+
 def board_text(board):
     """What stands on /diagnostics."""
     return " ".join(status.message for message in board for status in message.status)
