@@ -65,7 +65,7 @@ def test_no_step_is_walked_twice(heard):
 def test_an_ingestion_that_is_killed_and_started_again_pairs_every_field(tmp_path):
     space, walk = "restart_field", magnetic_walk(STRIDES)
     samples, fields = imu_messages(walk), field_messages(walk)
-    params = RELIABLE | {"node__magnetometer": True}
+    params = RELIABLE | {"node__magnetometer": True, "node__field_wait_s": 5.0}  # however busy the machine
     with Bench(namespace=space) as bench:
         margs = bench.hear(MargSample, "imu/marg")
         with node_process("imu_ingestion", space, tmp_path / "first.log", **params):
