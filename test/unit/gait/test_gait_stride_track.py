@@ -95,3 +95,10 @@ def test_a_turn_that_is_no_number_may_be_any_that_a_person_takes():
     track.step(gait_step(1), SURE, Angle(np.nan, 0.1), STRAIGHT)
     assert track.yaw.rad == pytest.approx(0.0)
     assert track.yaw.sd_rad == pytest.approx(np.hypot(SD[5], PARAMS.held_turn_sd_rad))
+
+
+def test_a_deviation_that_is_no_number_is_that_of_the_stride_before():
+    track = begun()
+    for i, rad in ((1, 0.5), (2, np.nan)):
+        ahead_m = track.step(gait_step(i), SURE, STRAIGHT, Angle(rad, 0.0)).step.displacement_m
+    assert np.arctan2(ahead_m[1], ahead_m[0]) == pytest.approx(0.5)
