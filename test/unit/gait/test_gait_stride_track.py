@@ -102,3 +102,12 @@ def test_a_deviation_that_is_no_number_is_that_of_the_stride_before():
     for i, rad in ((1, 0.5), (2, np.nan)):
         ahead_m = track.step(gait_step(i), SURE, STRAIGHT, Angle(rad, 0.0)).step.displacement_m
     assert np.arctan2(ahead_m[1], ahead_m[0]) == pytest.approx(0.5)
+
+
+def test_the_deviation_of_another_gait_is_off_by_itself():
+    """Strides of one gait err to one side together, 2 x 0.3 rad; the first of another has nothing to do with that."""
+    track = GaitDeadReckoning(replace(PARAMS, deviation_scatter_rad=0.0, turn_scatter=0.0))
+    track.begin(start(sd=1e-9 * SD))
+    for i, sd_rad in ((1, 0.3), (2, 0.3), (3, 0.1)):
+        track.step(gait_step(i), SURE, STEADY, Angle(0.0, sd_rad))
+    assert np.sqrt(track.handover.pose.covariance[1, 1]) == pytest.approx(SURE.m * np.hypot(2.0 * 0.3, 0.1))
