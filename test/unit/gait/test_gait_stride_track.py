@@ -111,3 +111,10 @@ def test_the_deviation_of_another_gait_is_off_by_itself():
     for i, sd_rad in ((1, 0.3), (2, 0.3), (3, 0.1)):
         track.step(gait_step(i), SURE, STEADY, Angle(0.0, sd_rad))
     assert np.sqrt(track.handover.pose.covariance[1, 1]) == pytest.approx(SURE.m * np.hypot(2.0 * 0.3, 0.1))
+
+
+def test_a_stand_that_is_over_already_takes_nothing_back():
+    track = begun()
+    end_ns = track.step(gait_step(1), SURE, STRAIGHT, STRAIGHT).step.stamp_ns
+    assert len(track.stand(end_ns - 500_000_000).stamp_ns) == 0
+    assert track.handover.stamp_ns == end_ns
