@@ -6,6 +6,8 @@ from numpy.typing import NDArray
 from pdr_core.conventions import NO_STAMP
 
 BUCKETS = 10  # that a window of the rest test is made of
+# each of them: samples; sums of |f|, ||f| - g|, |w|, |w - reference| and w
+SEEN, SEEN_FORCE, SEEN_OFF, SEEN_RATE, SEEN_SPREAD, SEEN_TURN = range(6)
 
 # fmt: off
 ESTIMATE = [
@@ -29,10 +31,12 @@ LAST_SAMPLE = [
 REST = [
     ("bucket_ns", np.int64),                  # start of the open bucket
     ("bucket", np.float64, 20),               # sums over its samples, see rest.py
-    ("ring", np.float64, (BUCKETS, 4)),
+    ("ring", np.float64, (BUCKETS, 8)),
     ("ring_next", np.int64),
     ("ring_filled", np.int64),
     ("rest_reference_mps2", np.float64),      # that |f| is compared with
+    ("rest_reference_radps", np.float64, 3),  # that w is compared with, to see whether it is constant
+    ("constant_ns", np.int64),                # since when it has been, with a force that is one of a rest; NO_STAMP
     ("resting", np.bool_),
     ("rest_start_ns", np.int64),
     ("rest_sums", np.float64, 20),            # of its buckets
@@ -102,6 +106,7 @@ def fresh_state() -> ChestState:
     for stamp in (
         "last_ns",
         "bucket_ns",
+        "constant_ns",
         "step_start_ns",
         "rest_end_ns",
         "rest_start_ns",
