@@ -10,13 +10,13 @@ import numpy as np
 from pdr_core.chest.ahead import chest_yaw_rad
 from pdr_core.chest.correction import feed_sample_back
 from pdr_core.chest.output import write
-from pdr_core.chest.recovery import bridge
+from pdr_core.chest.recovery import LOST_NS, bridge
 from pdr_core.chest.rest import judge
 from pdr_core.chest.rest_correction import forget_slowly
 from pdr_core.chest.settings import Settings
 from pdr_core.chest.state import ChestState
 from pdr_core.chest.steps import gather, step_ends
-from pdr_core.conventions import GAP_NS, NO_STAMP
+from pdr_core.conventions import NO_STAMP
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, difference, mean, norm, rotated, row, scaled
 from pdr_core.records import Flags, ImuBlock, NavBlock
@@ -28,9 +28,9 @@ from pdr_core.strapdown.samples import POINTS, between
 def take(stamp_ns: int, force_mps2: Triple, rate_radps: Triple, s: Settings, state: ChestState) -> bool:
     """Take a sample, as measured, into the estimate; return whether it ends a step."""
     dt_ns = stamp_ns - state.last_ns if state.last_ns != NO_STAMP else 0
-    jumped = dt_ns > GAP_NS or (dt_ns <= 0 and state.last_ns != NO_STAMP)
+    jumped = dt_ns > LOST_NS or (dt_ns <= 0 and state.last_ns != NO_STAMP)
     if jumped:
-        bridge(stamp_ns, dt_ns, state)
+        bridge(stamp_ns, dt_ns, rate_radps, state)
     judge(stamp_ns, force_mps2, rate_radps, s, state)
     force = scaled(state.force_scale, force_mps2)
     ended = False
