@@ -19,6 +19,7 @@ def turn_track(angle_rad: float, state: ChestState) -> None:
         vector[:] = R @ vector
     for yaw in (state.step_yaw, state.yaw_before):
         yaw[:] = R[:2, :2] @ yaw
+    state.yaw_from_rad += angle_rad
 
 
 def place(pose: PoseEstimate, state: ChestState) -> None:

@@ -57,6 +57,7 @@ STEP = [
     ("step_s", np.float64),                   # of the intervals in it
     ("step_figures", np.float64, 5),          # samples, sum, largest, least, sum of magnitudes of |f| - g
     ("step_yaw", np.float64, 2),              # integrals of cosine and sine of the yaw
+    ("yaw_from_rad", np.float64, 2),          # of the chest as the step before began, and as this one did
     ("step_number", np.int64),
     ("since_rest", np.int64),                 # steps
     ("uneven", np.int64),                     # steps in a row whose mean force is no weight
