@@ -66,14 +66,15 @@ def feed_sample_back(stamp_ns: int, force_mps2: Triple, s: Settings, state: Ches
 
 
 @compiled
-def level_anew(force: Vector, state: ChestState) -> None:
-    """Turn the estimated world so that a mean force in it points up."""
+def level_anew(force: Vector, state: ChestState) -> float:
+    """Turn the estimated world so that a mean force in it points up; return by how much [rad]."""
     axis = error(force)
     length = norm(axis)
+    angle = angle_from_up(force, length)
     if length > 1e-9:
-        angle = angle_from_up(force, length)
         turn = from_rotation_vector(scaled(angle / length, axis))
         state.quat_xyzw[:] = normalised(multiply(turn, state.quat_xyzw))
+    return angle
 
 
 @compiled

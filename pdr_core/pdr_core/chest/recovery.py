@@ -2,8 +2,9 @@
 
 A stride that shows a knock holds it somewhere: it levels, and the next whole one levels once more. How fast somebody
 walks is remembered from the uniform steps, ahead and left of the chest, also over a rest. Before the first of them
-nothing is known of it. Then what a lost tilt t has gained since it was lost is taken back, g t s after s seconds; and
-the speed that is left over at the next rest was wrong ever since (`settle`).
+nothing is known of it. Then what a lost tilt t has gained since a gap is taken back, g t s after s seconds; since a
+knock, of which nobody knows when it was, she is taken to walk as others do. And the speed that is left over at the next
+rest was wrong ever since (`settle`).
 
 The rates at both ends of a gap tell what lies between them as long as it is short beside a swing of the trunk, a
 stride. The error of that grows with the cube of the time, as of any rate that wanders between two known ones; of a
@@ -23,10 +24,12 @@ from pdr_core.maths.compiled import compiled
 from pdr_core.maths.quaternion import from_rotation_vector, multiply
 from pdr_core.maths.vector import Triple, difference, mean, scaled
 
+WALKING_MPS = 1.25  # people walk at 1.0 to 1.5 m/s: Cheng section 4
 GAP_SPEED_SD_MPS = 0.5  # how far off a walk may be that is taken to have gone on
 UNKNOWN_SPEED_SD_MPS = 1.5  # and one that nobody has seen
 GAP_RATE_SD_RADPS = 0.6  # people turn by 60 deg/s (El-Gohary et al. 2014), here every third gap
 IMPOSSIBLE_MPS2 = 2.0  # over a stride: no walker's speed changes by 2 m/s in one
+KNOCKED_YAW = 0.5**0.5  # a knock about two level axes is one about the vertical too, as of each of them
 TRUSTED_NS = 10_000_000_000  # a walk is taken to have gone on for so long at most
 LOST_NS = 200_000_000  # a chest moves so slowly that less is an interval as any
 TURNED_NS = 600_000_000  # so long the rates at both ends tell how a chest turns in a gap
@@ -78,15 +81,22 @@ def start_somewhere(stamp_ns: int, dt_ns: int, short: bool, state: ChestState) -
 
 
 @compiled
+def known(state: ChestState) -> bool:
+    """Return whether this person has been seen to walk in uniform motion."""
+    return state.walk_mps[0] != 0.0 or state.walk_mps[1] != 0.0
+
+
+@compiled
 def walking_velocity(state: ChestState) -> Triple:
-    """Return how fast this person walks in uniform motion, where the chest points; 0 as long as nothing is known."""
+    """Return how fast this person walks, where the chest points; as others do as long as nothing is known of her."""
+    ahead_mps, left_mps = (state.walk_mps[0], state.walk_mps[1]) if known(state) else (WALKING_MPS, 0.0)
     x, y = state.yaw_before[0] + state.step_yaw[0], state.yaw_before[1] + state.step_yaw[1]
     length = np.hypot(x, y)
     if length < LEAST_WAY_S:
         yaw_rad = chest_yaw_rad(state.quat_xyzw, state)
         x, y, length = np.cos(yaw_rad), np.sin(yaw_rad), 1.0
     c, n = x / length, y / length
-    return c * state.walk_mps[0] - n * state.walk_mps[1], n * state.walk_mps[0] + c * state.walk_mps[1], 0.0
+    return c * ahead_mps - n * left_mps, n * ahead_mps + c * left_mps, 0.0
 
 
 @compiled
@@ -103,19 +113,17 @@ def lost(s: Settings, state: ChestState) -> bool:
 def find_anew(stamp_ns: int, state: ChestState) -> None:
     """Level the chest by the stride that ends, and take the walk to have gone on since it was known to."""
     gained, stride_s = stride_force(state), state.s_before + state.step_s
-    level_anew(gained, state)
-    speed_sd_mps = GAP_SPEED_SD_MPS
-    if state.walk_mps[0] == 0.0 and state.walk_mps[1] == 0.0:
-        lost_s = (stamp_ns - state.level_ns) * 1e-9 if state.level_due else stride_s
-        take_back(scaled(1.0 / stride_s, gained), lost_s, state)
-        if state.settle_ns == NO_STAMP:
-            state.settle_ns = state.level_ns if state.level_due else stamp_ns
-        speed_sd_mps = UNKNOWN_SPEED_SD_MPS
+    knocked_rad = level_anew(gained, state)
+    state.yaw_sd_rad = np.hypot(state.yaw_sd_rad, KNOCKED_YAW * knocked_rad)
+    if not known(state) and state.settle_ns == NO_STAMP:
+        state.settle_ns = state.level_ns if state.level_due else stamp_ns
+    if not known(state) and state.level_due:
+        take_back(scaled(1.0 / stride_s, gained), (stamp_ns - state.level_ns) * 1e-9, state)
     else:
         go_on_walking(stamp_ns, state)
     state.level_due, state.level_ns = not state.level_due, stamp_ns
     state.releveled, state.uneven = True, 0
-    state.velocity_sd_mps = max(state.velocity_sd_mps, speed_sd_mps)
+    state.velocity_sd_mps = max(state.velocity_sd_mps, GAP_SPEED_SD_MPS)
     state.levelled += 1
     state.feedback_radps[:] = 0.0
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from pdr_core.conventions import STANDARD_GRAVITY_MPS2
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.records import picked
 from pdr_core.simulation import simulated_walk
@@ -27,6 +28,19 @@ def knocked(imu, at_s, axis="x", angle_deg=20.0):
     accel, gyro = imu.accel_mps2.copy(), imu.gyro_radps.copy()
     accel[later], gyro[later] = turn.apply(accel[later]), turn.apply(gyro[later])
     return imu._replace(accel_mps2=accel, gyro_radps=gyro)
+
+
+def card_turned(true, at_s, axis, angle_deg=20.0):
+    """A knock of the card itself: its biases stay in its axes."""
+    turn = Rotation.from_rotvec(np.radians(angle_deg) * np.array(axis) / np.linalg.norm(axis))
+    later, rest = true.imu.stamp_ns > at_s * 1e9, slice(0, 4 * RATE_HZ)
+    accel, gyro = true.imu.accel_mps2.copy(), true.imu.gyro_radps.copy()
+    force = true.motion.acceleration_mps2 + STANDARD_GRAVITY_MPS2 * np.eye(3)[2]
+    felt = Rotation.from_quat(true.motion.quat_xyzw).inv().apply(force)
+    for measured, exact in ((accel, felt), (gyro, true.motion.rate_radps)):
+        bias = (measured - exact)[rest].mean(axis=0)
+        measured[later] = turn.apply(measured[later] - bias) + bias
+    return true.imu._replace(accel_mps2=accel, gyro_radps=gyro)
 
 
 def mean_end_error_m(troubled, **chest):
@@ -122,6 +136,26 @@ def test_a_gap_is_named():
 @pytest.mark.parametrize("at_s", [1.0, REST, 4.0, 9.0, ON_THE_WAY, 12.0, 14.0])
 def test_a_knock_by_20_degrees_is_found_and_taken_back(at_s, axis):
     assert mean_end_error_m(lambda imu: knocked(imu, at_s, axis)) < 0.06 * LENGTH_M
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], ids=["x", "y"])
+@pytest.mark.parametrize("at_s", [5.2, 6.0, 7.0])
+def test_a_knock_in_the_first_steps_of_all_is_survived(at_s, axis):
+    """Nobody knows yet how fast this person walks, and since when the tilt is off: she walks as others do."""
+    walks = [walk(seed, LENGTH_M) for seed in SEEDS]
+    errors = [end_error_m(estimated(card_turned(true, at_s, axis))[0], true) for true in walks]
+    assert np.mean(errors) < 0.04 * LENGTH_M
+
+
+def test_a_knock_about_the_vertical_too_is_in_the_deviation_of_the_yaw():
+    off = []
+    for true in (walk(seed, LENGTH_M) for seed in SEEDS):
+        nav, _, _ = estimated(card_turned(true, ON_THE_WAY, (1.0, 1.0, 1.0)))
+        leg = np.flatnonzero(np.linalg.norm(true.motion.velocity_mps[: len(nav.stamp_ns)], axis=1) > 0.5)[[-300, -1]]
+        ways = [complex(*np.diff(p[leg, :2], axis=0)[0]) for p in (nav.position_m, true.motion.position_m)]
+        off.append(np.angle(ways[0] / ways[1]))
+        assert abs(off[-1]) < 3.0 * np.sqrt(nav.pose_covariance[-1, 5, 5])
+    assert np.mean(np.abs(off)) > np.radians(3.0)
 
 
 def test_without_the_correction_a_knock_loses_the_walk():
