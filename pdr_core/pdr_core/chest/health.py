@@ -18,6 +18,9 @@ def notices(state: ChestState) -> list[Notice]:
     if state.gaps:
         text = "samples were missing: the walk was taken to go on as before"
         found.append(Notice(Level.WARN, "coasted", text, int(state.gaps), start_ns))
+    if state.idled:
+        text = "it moved for seconds with neither rest nor step, and was taken to stay: below 0.4 m/s no steps are seen"
+        found.append(Notice(Level.WARN, "no_steps", text, int(state.idled), start_ns))
     if state.levelled:
         text = "the tilt was off by more than a walk explains, and was found anew: is the card fixed to the chest?"
         found.append(Notice(Level.WARN, "levelled_anew", text, int(state.levelled), start_ns))

@@ -9,6 +9,7 @@ import numpy as np
 
 from pdr_core.chest.ahead import chest_yaw_rad
 from pdr_core.chest.correction import feed_sample_back
+from pdr_core.chest.idle import hold, watch
 from pdr_core.chest.output import write
 from pdr_core.chest.recovery import LOST_NS, bridge
 from pdr_core.chest.rest import judge
@@ -38,6 +39,7 @@ def take(stamp_ns: int, force_mps2: Triple, rate_radps: Triple, s: Settings, sta
         state.coasting = False
         move(stamp_ns, force, rate_radps, dt_ns * 1e-9, s, state)
         ended = step_ends(stamp_ns, norm(force) - s.gravity_mps2, dt_ns * 1e-9, s, state)
+    watch(stamp_ns, ended, state)
     state.last_ns = stamp_ns
     state.last_force_mps2[:] = force
     state.last_rate_radps[:] = rate_radps
@@ -66,6 +68,8 @@ def move(stamp_ns: int, force: Triple, rate: Triple, dt_s: float, s: Settings, s
     felt = mean(rotated(R_before, before), rotated(R_after, after))
     gather(felt, norm(force) - s.gravity_mps2, chest_yaw_rad(state.quat_xyzw, state), dt_s, state)
     feed_sample_back(stamp_ns, force, s, state)
+    if state.idle:
+        hold(state)
     doubt(dt_s, s, state)
 
 

@@ -65,6 +65,8 @@ STEP = [
     ("level_ns", np.int64),                   # when it was lost, or last found
     ("releveled", np.bool_),                  # by the step that ends: its sums are of the wrong tilt
     ("settle_ns", np.int64),                  # since when the speed is off by nobody knows what; NO_STAMP: it is not
+    ("stepped_ns", np.int64),                 # when the last step ended, or a rest
+    ("idle", np.bool_),                       # for so long that there is no walk
     ("walk_mps", np.float64, 2),              # mean velocity of the last uniform step, ahead and left; 0: unknown
     ("walking", np.bool_),                    # there was one since the last rest
     ("force_before", np.float64, 3),          # step_force, step_s and step_yaw of the step before; 0: there is none
@@ -85,6 +87,7 @@ COUNTS = [
     ("fed_back", np.int64),                   # steps
     ("levelled", np.int64),                   # steps that had to level the chest anew
     ("placed", np.int64),                     # poses that somebody has told
+    ("idled", np.int64),                      # times
     ("moved", np.bool_),                      # steps came before any rest
 ]
 # fmt: on
@@ -115,6 +118,7 @@ def fresh_state() -> ChestState:
         "even_ns",
         "level_ns",
         "settle_ns",
+        "stepped_ns",
     ):
         state[stamp] = NO_STAMP
     return state
