@@ -17,7 +17,7 @@ from pdr_core.chest.ahead import chest_yaw_rad
 from pdr_core.chest.correction import level_anew
 from pdr_core.chest.rest import interrupt
 from pdr_core.chest.settings import Settings
-from pdr_core.chest.state import ChestState
+from pdr_core.chest.state import UNKNOWN_SPEED_SD_MPS, ChestState
 from pdr_core.chest.steps import stride_force
 from pdr_core.conventions import NO_STAMP
 from pdr_core.maths.compiled import compiled
@@ -26,7 +26,6 @@ from pdr_core.maths.vector import Triple, difference, mean, scaled
 
 WALKING_MPS = 1.25  # people walk at 1.0 to 1.5 m/s: Cheng section 4
 GAP_SPEED_SD_MPS = 0.5  # how far off a walk may be that is taken to have gone on
-UNKNOWN_SPEED_SD_MPS = 1.5  # and one that nobody has seen
 GAP_RATE_SD_RADPS = 0.6  # people turn by 60 deg/s (El-Gohary et al. 2014), here every third gap
 IMPOSSIBLE_MPS2 = 2.0  # over a stride: no walker's speed changes by 2 m/s in one
 KNOCKED_YAW = 0.5**0.5  # a knock about two level axes is one about the vertical too, as of each of them

@@ -27,6 +27,8 @@ from pdr_core.maths.vector import norm
 WANDER_S = 100.0  # MEMS gyros show their least Allan deviation after 10 to 100 s
 MEMORY_S = 5.0  # of a rest: a fit over so long is better than the wander, and longer ones are not
 LEAST_NOISE_RADPS = 1e-5
+STANDING_SD_MPS = 0.01  # a trunk that sways by sway_sd_rad, some times in ten seconds
+BEGIN_SD_M, BEGIN_SD_RAD = 1e-3, 1e-3  # nothing that is published is exact, though the world is defined by it
 FIT_S = 1.2  # measured in the simulator: of a swaying person a fit over T leaves the rate sway FIT_S / T^2
 
 
@@ -45,11 +47,19 @@ def correct(stamp_ns: int, s: Settings, state: ChestState) -> None:
     level = levelled(np.array(force), 0.0)
     if not state.aligned:
         choose(level, state)
+        begin_track(state)
     now = multiply(level, fitted_turn(state)) if s.sways else level
     state.quat_xyzw[:] = multiply(from_euler(0.0, 0.0, state.held_yaw_rad - chest_yaw_rad(now, state)), now)
     state.velocity_mps[:] = 0.0
-    state.velocity_sd_mps = 0.0
+    state.velocity_sd_mps = STANDING_SD_MPS
     state.aligned = True
+
+
+@compiled
+def begin_track(state: ChestState) -> None:
+    """Let the world begin where the first rest is and the chest points then, unless somebody has told a pose."""
+    if not state.placed:
+        state.position_sd_m, state.yaw_sd_rad = BEGIN_SD_M, BEGIN_SD_RAD
 
 
 @compiled

@@ -94,6 +94,7 @@ COUNTS = [
 LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *REST, *STEP, *DOUBT, *COUNTS], align=True)
 ChestState = np.record
 UNKNOWN_BIAS_VARIANCE = 0.05**2  # of a gyro that was never at rest: 3 deg/s
+UNKNOWN_M, UNKNOWN_SPEED_SD_MPS = 20.0, 1.5  # of who was never at rest
 
 
 def state_of(row: NDArray[np.void]) -> ChestState:
@@ -107,6 +108,7 @@ def fresh_state() -> ChestState:
     state.quat_xyzw[3] = state.force_scale = 1.0
     state.level_axes[:] = np.eye(3)
     state.bias_variance = UNKNOWN_BIAS_VARIANCE
+    state.position_sd_m, state.velocity_sd_mps, state.yaw_sd_rad = UNKNOWN_M, UNKNOWN_SPEED_SD_MPS, np.pi
     for stamp in (
         "last_ns",
         "bucket_ns",
