@@ -29,6 +29,8 @@ MEMORY_S = 5.0  # of a rest: a fit over so long is better than the wander, and l
 LEAST_NOISE_RADPS = 1e-5
 STANDING_SD_MPS = 0.01  # a trunk that sways by sway_sd_rad, some times in ten seconds
 BEGIN_SD_M, BEGIN_SD_RAD = 1e-3, 1e-3  # nothing that is published is exact, though the world is defined by it
+LEFT_MPS = 1.0  # at the end of a walk of steps that were uniform it is some cm/s
+MOMENT_NS = 4_000_000_000  # a turn on the spot, a step or two
 FIT_S = 1.2  # measured in the simulator: of a swaying person a fit over T leaves the rate sway FIT_S / T^2
 
 
@@ -98,8 +100,14 @@ def wandered(dt_s: float, s: Settings) -> float:
 
 @compiled
 def settle(stamp_ns: int, state: ChestState) -> None:
-    """Take back the way that an unknown speed went: what is left of it now is what it was off by all the time."""
+    """Take back the way that an unknown speed went: what is left of it now is what it was off by all the time.
+
+    Who moves for a moment and comes to rest with a speed that nobody has was knocked meanwhile, and stayed.
+    """
     if state.settle_ns != NO_STAMP:
         for i in range(2):
             state.position_m[i] -= state.velocity_mps[i] * max(stamp_ns - state.settle_ns, 0) * 1e-9
+    elif not state.walking and norm(state.velocity_mps) > LEFT_MPS and stamp_ns - state.rest_end_ns < MOMENT_NS:
+        state.position_m[:] = state.even_m
+        state.levelled += 1
     state.settle_ns = NO_STAMP

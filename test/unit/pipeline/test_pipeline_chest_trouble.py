@@ -147,6 +147,19 @@ def test_a_knock_in_the_first_steps_of_all_is_survived(at_s, axis):
     assert np.mean(errors) < 0.04 * LENGTH_M
 
 
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], ids=["x", "y"])
+@pytest.mark.parametrize("before_s", [0.6, 0.3, 0.0])
+def test_a_knock_in_a_turn_on_the_spot_is_survived(before_s, axis):
+    """It is over before a stride shows it, but nobody stops from three metres a second."""
+    walks = [walk(seed, LENGTH_M) for seed in SEEDS]
+    errors = []
+    for true in walks:
+        nav, _, card = estimated(card_turned(true, first_turn_s(true) - before_s, axis))
+        errors.append(end_error_m(nav, true))
+        assert "levelled_anew" in [n.kind for n in card.notices]
+    assert np.mean(errors) < 0.06 * LENGTH_M
+
+
 def test_a_knock_about_the_vertical_too_is_in_the_deviation_of_the_yaw():
     off = []
     for true in (walk(seed, LENGTH_M) for seed in SEEDS):
