@@ -22,10 +22,11 @@ As printed, eq. 11 has g_n x f with g_n = (0, 0, -g), which is g^2 e, and eq. 12
 its transpose. With eq. 5 both together are p' = +K g^2 p: the tilt runs to 180 degrees. K of about 1e-5, as the paper
 has it, makes sense for the cross product that is not normalised and for a sample's time, which eq. 12 takes out twice.
 
-What a step is worth: the mean force of a step is g u plus the change of speed over the step by its duration. It is
-weight only where the speed is the same at both ends; so a start, a stop, and a step whose mean is too far from level
-are left out (section 2.1). But nobody speeds up for many steps in a row: after `steady_steps` of them the tilt is what
-is wrong (a sensor that was knocked), and the chest is levelled at once, K T = 1.
+What a step is worth: the mean force of a step is g u plus the change of velocity over the step by its duration. Who
+walks a bend keeps her velocity v beside the chest, so (R_yaw end - R_yaw begin) v of that is known and taken out. The
+rest is weight only where the speed is the same at both ends; so a start, a stop, and a step whose mean is too far from
+level are left out (section 2.1). But nobody speeds up for many steps in a row: after `steady_steps` of them the tilt is
+what is wrong (a sensor that was knocked), and the chest is levelled at once, K T = 1.
 
 The traditional filter feeds each sample's f back, always: of a start it keeps K times the speed over g, 1 m/s being 6
 degrees for K = 1.
@@ -65,14 +66,15 @@ def feed_sample_back(stamp_ns: int, force_mps2: Triple, s: Settings, state: Ches
 
 
 @compiled
-def level_anew(force: Vector, state: ChestState) -> None:
-    """Turn the estimated world so that a mean force in it points up."""
+def level_anew(force: Vector, state: ChestState) -> float:
+    """Turn the estimated world so that a mean force in it points up; return by how much [rad]."""
     axis = error(force)
     length = norm(axis)
+    angle = angle_from_up(force, length)
     if length > 1e-9:
-        angle = angle_from_up(force, length)
         turn = from_rotation_vector(scaled(angle / length, axis))
         state.quat_xyzw[:] = normalised(multiply(turn, state.quat_xyzw))
+    return angle
 
 
 @compiled

@@ -3,10 +3,8 @@
 import numpy as np
 
 from pdr_core.chest.settings import Settings
-from pdr_core.chest.state import ChestState
+from pdr_core.chest.state import UNKNOWN_M, ChestState
 from pdr_core.records import FieldUse, FilterHealth, FilterMode, Level, Notice
-
-LOST_AFTER_M = 20.0  # deviation of the position at which nothing is left of the quality
 
 
 def notices(state: ChestState) -> list[Notice]:
@@ -18,6 +16,9 @@ def notices(state: ChestState) -> list[Notice]:
     if state.gaps:
         text = "samples were missing: the walk was taken to go on as before"
         found.append(Notice(Level.WARN, "coasted", text, int(state.gaps), start_ns))
+    if state.idled:
+        text = "it moved for seconds with neither rest nor step, and was taken to stay: below 0.4 m/s no steps are seen"
+        found.append(Notice(Level.WARN, "no_steps", text, int(state.idled), start_ns))
     if state.levelled:
         text = "the tilt was off by more than a walk explains, and was found anew: is the card fixed to the chest?"
         found.append(Notice(Level.WARN, "levelled_anew", text, int(state.levelled), start_ns))
@@ -29,7 +30,7 @@ def judged(state: ChestState, s: Settings) -> FilterHealth:
     return FilterHealth(
         mode=mode(state),
         stamp_ns=int(state.last_ns),
-        quality=max(0.0, 1.0 - float(state.position_sd_m) / LOST_AFTER_M) if state.aligned else 0.0,
+        quality=max(0.0, 1.0 - float(state.position_sd_m) / UNKNOWN_M) if state.aligned else 0.0,
         samples=int(state.samples),
         accepted=int(state.rests),
         contradicted=int(state.levelled),
@@ -40,7 +41,7 @@ def judged(state: ChestState, s: Settings) -> FilterHealth:
         position_sd_m=float(state.position_sd_m),
         height_sd_m=float(state.position_sd_m),
         velocity_sd_mps=float(state.velocity_sd_mps),
-        tilt_sd_rad=s.tilt_sd_rad,
+        tilt_sd_rad=s.tilt_sd_rad if state.aligned else np.pi,
         yaw_sd_rad=float(state.yaw_sd_rad),
         gyro_bias_radps=state.gyro_bias_radps.copy(),
         gyro_bias_sd_radps=np.full(3, float(state.bias_variance) ** 0.5),

@@ -9,14 +9,15 @@ import numpy as np
 
 from pdr_core.chest.ahead import chest_yaw_rad
 from pdr_core.chest.correction import feed_sample_back
+from pdr_core.chest.idle import hold, watch
 from pdr_core.chest.output import write
-from pdr_core.chest.recovery import bridge
+from pdr_core.chest.recovery import LOST_NS, bridge
 from pdr_core.chest.rest import judge
 from pdr_core.chest.rest_correction import forget_slowly
 from pdr_core.chest.settings import Settings
 from pdr_core.chest.state import ChestState
 from pdr_core.chest.steps import gather, step_ends
-from pdr_core.conventions import GAP_NS, NO_STAMP
+from pdr_core.conventions import NO_STAMP
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, difference, mean, norm, rotated, row, scaled
 from pdr_core.records import Flags, ImuBlock, NavBlock
@@ -28,9 +29,9 @@ from pdr_core.strapdown.samples import POINTS, between
 def take(stamp_ns: int, force_mps2: Triple, rate_radps: Triple, s: Settings, state: ChestState) -> bool:
     """Take a sample, as measured, into the estimate; return whether it ends a step."""
     dt_ns = stamp_ns - state.last_ns if state.last_ns != NO_STAMP else 0
-    jumped = dt_ns > GAP_NS or (dt_ns <= 0 and state.last_ns != NO_STAMP)
+    jumped = dt_ns > LOST_NS or (dt_ns <= 0 and state.last_ns != NO_STAMP)
     if jumped:
-        bridge(stamp_ns, dt_ns, state)
+        bridge(stamp_ns, dt_ns, rate_radps, state)
     judge(stamp_ns, force_mps2, rate_radps, s, state)
     force = scaled(state.force_scale, force_mps2)
     ended = False
@@ -38,6 +39,7 @@ def take(stamp_ns: int, force_mps2: Triple, rate_radps: Triple, s: Settings, sta
         state.coasting = False
         move(stamp_ns, force, rate_radps, dt_ns * 1e-9, s, state)
         ended = step_ends(stamp_ns, norm(force) - s.gravity_mps2, dt_ns * 1e-9, s, state)
+    watch(stamp_ns, ended, state)
     state.last_ns = stamp_ns
     state.last_force_mps2[:] = force
     state.last_rate_radps[:] = rate_radps
@@ -66,6 +68,8 @@ def move(stamp_ns: int, force: Triple, rate: Triple, dt_s: float, s: Settings, s
     felt = mean(rotated(R_before, before), rotated(R_after, after))
     gather(felt, norm(force) - s.gravity_mps2, chest_yaw_rad(state.quat_xyzw, state), dt_s, state)
     feed_sample_back(stamp_ns, force, s, state)
+    if state.idle:
+        hold(state)
     doubt(dt_s, s, state)
 
 

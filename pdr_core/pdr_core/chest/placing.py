@@ -11,10 +11,15 @@ from pdr_core.records import PoseEstimate
 
 
 def turn_track(angle_rad: float, state: ChestState) -> None:
-    """Turn attitude and velocity about the vertical, counter-clockwise."""
+    """Turn about the vertical, counter-clockwise: attitude, velocity, and what is remembered in the world frame."""
     turn = from_euler(0.0, 0.0, angle_rad)
     state.quat_xyzw[:] = multiply(turn, state.quat_xyzw)
-    state.velocity_mps[:] = matrix(turn) @ state.velocity_mps
+    R = matrix(turn)
+    for vector in (state.velocity_mps, state.step_force, state.force_before):
+        vector[:] = R @ vector
+    for yaw in (state.step_yaw, state.yaw_before):
+        yaw[:] = R[:2, :2] @ yaw
+    state.yaw_from_rad += angle_rad
 
 
 def place(pose: PoseEstimate, state: ChestState) -> None:

@@ -3,7 +3,8 @@
 Eq. 1 compares mean |f| - |g| and mean |w| with thresholds and leaves out the absolute value of the first, so a free
 fall would be a rest. Here the magnitude stands inside the mean, (1/k) sum ||f| - g|: a body that bounces has a mean
 |f| of g too. g is aSF of eq. 2 once there was a rest, before that the mean |f| of the window itself, since an
-accelerometer may be off by more than the threshold; w is without the bias that is known.
+accelerometer may be off by more than the threshold; w is without the bias that is known. A gyro whose bias is larger
+than the threshold would never rest: that is for `unknown_bias`.
 
 The samples are summed in buckets, a tenth of a window each; one in which the body moves ends the rest and is not taken
 in. Where the force points elsewhere than so far, though no rate has shown it, the sensor was knocked: the rest begins
@@ -14,14 +15,14 @@ from pdr_core.chest.ahead import chest_yaw_rad
 from pdr_core.chest.rest_correction import correct, settle
 from pdr_core.chest.rest_fit import COUNT, FORCE, FORCE_NORM, RATE, RATE_NORM, mean_of, take_in
 from pdr_core.chest.settings import Settings
-from pdr_core.chest.state import BUCKETS, ChestState
+from pdr_core.chest.state import BUCKETS, SEEN, SEEN_FORCE, SEEN_OFF, SEEN_RATE, ChestState
+from pdr_core.chest.unknown_bias import constant, refer_rate, take_bias, take_rate
 from pdr_core.conventions import NO_STAMP
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import Triple, difference, norm
 
 PLAUSIBLE = 0.06  # share of gravity by which an accelerometer may be off
 KNOCKED = 0.05  # share of gravity by which the force moves: 3 degrees, people sway by some tenths of one
-SEEN, SEEN_FORCE, SEEN_OFF, SEEN_RATE = range(4)  # in the ring: samples, sums of |f|, of ||f| - g| and of |w|
 
 
 @compiled
@@ -29,6 +30,7 @@ def judge(stamp_ns: int, force_mps2: Triple, rate_radps: Triple, s: Settings, st
     """Take a sample, unscaled, into the open bucket; close it when it is full, which may begin or end a rest."""
     if state.bucket_ns == NO_STAMP or stamp_ns < state.bucket_ns:
         state.rest_reference_mps2 = norm(force_mps2)
+        state.rest_reference_radps[:] = rate_radps
         begin_bucket(stamp_ns, state)
     elif stamp_ns - state.bucket_ns >= s.bucket_ns:
         close_bucket(stamp_ns, s, state)
@@ -41,6 +43,7 @@ def judge(stamp_ns: int, force_mps2: Triple, rate_radps: Triple, s: Settings, st
     b[RATE_NORM] += norm(difference(rate_radps, state.gyro_bias_radps))
     take_in(stamp_ns, force_mps2, rate_radps, state)
     state.ring[state.ring_next, SEEN_OFF] += abs(norm(force_mps2) - state.rest_reference_mps2)
+    take_rate(rate_radps, state)
 
 
 @compiled
@@ -67,7 +70,11 @@ def close_bucket(stamp_ns: int, s: Settings, state: ChestState) -> None:
         correct(stamp_ns, s, state)
     elif quiet and state.ring_filled == BUCKETS and window_is_still(s, state):
         begin_rest(stamp_ns, state)
+    elif constant(stamp_ns, s, state) and window_weighs(s, state):
+        take_bias(state)
+        begin_rest(stamp_ns, state)
     state.rest_reference_mps2 = reference_mps2(s, state)
+    refer_rate(state)
     begin_bucket(stamp_ns, state)
 
 
@@ -88,10 +95,15 @@ def still(off: float, rate: float, samples: float, s: Settings) -> bool:
 @compiled
 def window_is_still(s: Settings, state: ChestState) -> bool:
     """Return eq. 1 for the whole window; the window must be one of a body at rest also in its mean |f|."""
-    samples = state.ring[:, SEEN].sum()
-    mean = state.ring[:, SEEN_FORCE].sum() / samples
-    weighs = abs(mean / s.gravity_mps2 - 1.0) < PLAUSIBLE
-    return weighs and still(state.ring[:, SEEN_OFF].sum(), state.ring[:, SEEN_RATE].sum(), samples, s)
+    off, rate, samples = state.ring[:, SEEN_OFF].sum(), state.ring[:, SEEN_RATE].sum(), state.ring[:, SEEN].sum()
+    return window_weighs(s, state) and still(off, rate, samples, s)
+
+
+@compiled
+def window_weighs(s: Settings, state: ChestState) -> bool:
+    """Return whether the mean |f| of the window is one that an accelerometer may show at rest."""
+    mean = state.ring[:, SEEN_FORCE].sum() / state.ring[:, SEEN].sum()
+    return abs(mean / s.gravity_mps2 - 1.0) < PLAUSIBLE
 
 
 @compiled
@@ -115,7 +127,7 @@ def begin_rest(stamp_ns: int, state: ChestState) -> None:
     state.held_yaw_rad = chest_yaw_rad(state.quat_xyzw, state)
     state.rest_bias_radps[:] = state.gyro_bias_radps
     state.rest_bias_variance = state.bias_variance
-    state.step_start_ns = NO_STAMP
+    state.step_start_ns = state.constant_ns = NO_STAMP
     state.since_rest, state.uneven, state.level_due = 0, 0, False
     state.feedback_radps[:] = 0.0
     state.walking = False
@@ -136,5 +148,5 @@ def interrupt(state: ChestState) -> None:
     if state.resting:
         state.resting = False
         state.rest_end_ns = state.last_ns
-    state.bucket_ns = NO_STAMP
+    state.bucket_ns = state.constant_ns = NO_STAMP
     state.ring_filled = 0

@@ -6,6 +6,8 @@ from numpy.typing import NDArray
 from pdr_core.conventions import NO_STAMP
 
 BUCKETS = 10  # that a window of the rest test is made of
+# each of them: samples; sums of |f|, ||f| - g|, |w|, |w - reference| and w
+SEEN, SEEN_FORCE, SEEN_OFF, SEEN_RATE, SEEN_SPREAD, SEEN_TURN = range(6)
 
 # fmt: off
 ESTIMATE = [
@@ -29,10 +31,12 @@ LAST_SAMPLE = [
 REST = [
     ("bucket_ns", np.int64),                  # start of the open bucket
     ("bucket", np.float64, 20),               # sums over its samples, see rest.py
-    ("ring", np.float64, (BUCKETS, 4)),
+    ("ring", np.float64, (BUCKETS, 8)),
     ("ring_next", np.int64),
     ("ring_filled", np.int64),
     ("rest_reference_mps2", np.float64),      # that |f| is compared with
+    ("rest_reference_radps", np.float64, 3),  # that w is compared with, to see whether it is constant
+    ("constant_ns", np.int64),                # since when it has been, with a force that is one of a rest; NO_STAMP
     ("resting", np.bool_),
     ("rest_start_ns", np.int64),
     ("rest_sums", np.float64, 20),            # of its buckets
@@ -53,6 +57,7 @@ STEP = [
     ("step_s", np.float64),                   # of the intervals in it
     ("step_figures", np.float64, 5),          # samples, sum, largest, least, sum of magnitudes of |f| - g
     ("step_yaw", np.float64, 2),              # integrals of cosine and sine of the yaw
+    ("yaw_from_rad", np.float64, 2),          # of the chest as the step before began, and as this one did
     ("step_number", np.int64),
     ("since_rest", np.int64),                 # steps
     ("uneven", np.int64),                     # steps in a row whose mean force is no weight
@@ -60,6 +65,8 @@ STEP = [
     ("level_ns", np.int64),                   # when it was lost, or last found
     ("releveled", np.bool_),                  # by the step that ends: its sums are of the wrong tilt
     ("settle_ns", np.int64),                  # since when the speed is off by nobody knows what; NO_STAMP: it is not
+    ("stepped_ns", np.int64),                 # when the last step ended, or a rest
+    ("idle", np.bool_),                       # for so long that there is no walk
     ("walk_mps", np.float64, 2),              # mean velocity of the last uniform step, ahead and left; 0: unknown
     ("walking", np.bool_),                    # there was one since the last rest
     ("force_before", np.float64, 3),          # step_force, step_s and step_yaw of the step before; 0: there is none
@@ -80,12 +87,14 @@ COUNTS = [
     ("fed_back", np.int64),                   # steps
     ("levelled", np.int64),                   # steps that had to level the chest anew
     ("placed", np.int64),                     # poses that somebody has told
+    ("idled", np.int64),                      # times
     ("moved", np.bool_),                      # steps came before any rest
 ]
 # fmt: on
 LAYOUT = np.dtype([*ESTIMATE, *LAST_SAMPLE, *REST, *STEP, *DOUBT, *COUNTS], align=True)
 ChestState = np.record
 UNKNOWN_BIAS_VARIANCE = 0.05**2  # of a gyro that was never at rest: 3 deg/s
+UNKNOWN_M, UNKNOWN_SPEED_SD_MPS = 20.0, 1.5  # of who was never at rest
 
 
 def state_of(row: NDArray[np.void]) -> ChestState:
@@ -99,9 +108,11 @@ def fresh_state() -> ChestState:
     state.quat_xyzw[3] = state.force_scale = 1.0
     state.level_axes[:] = np.eye(3)
     state.bias_variance = UNKNOWN_BIAS_VARIANCE
+    state.position_sd_m, state.velocity_sd_mps, state.yaw_sd_rad = UNKNOWN_M, UNKNOWN_SPEED_SD_MPS, np.pi
     for stamp in (
         "last_ns",
         "bucket_ns",
+        "constant_ns",
         "step_start_ns",
         "rest_end_ns",
         "rest_start_ns",
@@ -109,6 +120,7 @@ def fresh_state() -> ChestState:
         "even_ns",
         "level_ns",
         "settle_ns",
+        "stepped_ns",
     ):
         state[stamp] = NO_STAMP
     return state

@@ -11,6 +11,7 @@ is +-4 sway / T^2, 0.5 m/s^2. So what eq. 10 takes the mean of is a stride, the 
 
 import numpy as np
 
+from pdr_core.chest.ahead import chest_yaw_rad
 from pdr_core.chest.settings import Settings
 from pdr_core.chest.state import ChestState
 from pdr_core.conventions import NO_STAMP
@@ -56,6 +57,7 @@ def begin_step(stamp_ns: int, state: ChestState) -> None:
     state.step_figures[:] = 0.0
     state.step_figures[LARGEST], state.step_figures[LEAST] = -1e9, 1e9
     state.step_yaw[:] = 0.0
+    state.yaw_from_rad[1] = chest_yaw_rad(state.quat_xyzw, state)
 
 
 @compiled
@@ -63,6 +65,7 @@ def hand_on(state: ChestState) -> None:
     """Keep the sums of the step that ends as those of the step before; not where they are of a tilt that was wrong."""
     state.force_before[:] = state.step_force
     state.yaw_before[:] = state.step_yaw
+    state.yaw_from_rad[0] = state.yaw_from_rad[1]
     state.s_before = 0.0 if state.releveled else state.step_s
     state.releveled = False
 
@@ -113,5 +116,12 @@ def step_ends(stamp_ns: int, weight_mps2: float, dt_s: float, s: Settings, state
 
 @compiled
 def stride_force(state: ChestState) -> Triple:
-    """Return the integral of the force over the step that ends and the one before, in the world frame [m/s]."""
-    return added(state.force_before, state.step_force)
+    """Return the integral of the force over the step that ends and the one before, in the world frame [m/s].
+
+    Without what turns a walk: who walks a bend keeps her velocity beside the chest, and the force turns it with her.
+    """
+    x, y, z = added(state.force_before, state.step_force)
+    before_rad, now_rad = state.yaw_from_rad[0], chest_yaw_rad(state.quat_xyzw, state)
+    c, n = np.cos(now_rad) - np.cos(before_rad), np.sin(now_rad) - np.sin(before_rad)
+    ahead, left = state.walk_mps
+    return x - (c * ahead - n * left), y - (n * ahead + c * left), z

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from pdr_core.params import Params, SimulationParams, changed
 from pdr_core.pipeline import ChestCard
-from pdr_core.records import FieldUse, joined, length, part
+from pdr_core.records import FieldUse, PoseEstimate, joined, length, part
 from pdr_core.simulation import simulated_walk
 from support.chest import RATE_HZ, compass_walk, end_error_m, estimated, params, walk
 
@@ -210,3 +210,27 @@ def test_with_a_field_stream_equals_batch_too():
     whole = estimated(imu)[0]
     rng = np.random.default_rng(5)
     assert_same(whole, joined([o.nav for o in streamed(imu, iter(lambda: rng.integers(1, 999), None))]))
+
+
+def test_before_the_first_rest_nothing_is_known_and_afterwards_nothing_exactly():
+    """A filter that listens to the odometry neither believes a track that is none nor meets a variance of zero."""
+    true = walk(1)
+    walking = estimated(part(true.imu, 7 * RATE_HZ, 10 * RATE_HZ))[0]
+    pose, twist = (np.sqrt(np.diagonal(c[-1])) for c in (walking.pose_covariance, walking.twist_covariance))
+    assert pose[0] > 10.0
+    assert np.all(pose[3:] > 3.0)
+    assert twist[0] > 1.0
+    nav, _, card = estimated(true.imu)
+    assert nav.pose_covariance[RATE_HZ, 0, 0] < 0.01**2
+    for covariance in (nav.pose_covariance, nav.twist_covariance):
+        assert np.all(np.linalg.eigvalsh(covariance) > 0.0)
+    assert card.health.quality > 0.5
+
+
+def test_a_pose_that_is_told_before_the_first_rest_keeps_its_deviations():
+    card = ChestCard(Params())
+    card.run(part(walk(1).imu, 0, 10))
+    card.place(PoseEstimate(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), 0.04 * np.eye(6)))
+    nav = card.run(part(walk(1).imu, 10, 2 * RATE_HZ)).nav
+    assert nav.pose_covariance[-1, 0, 0] == pytest.approx(0.04)
+    assert nav.pose_covariance[-1, 5, 5] == pytest.approx(0.04)

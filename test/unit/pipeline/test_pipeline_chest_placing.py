@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pdr_core.params import Params, changed
+from pdr_core.chest import ChestNavigator
+from pdr_core.params import ChestParams, GaitParams, Params, PlaceParams, changed
 from pdr_core.pipeline import ChestCard
+from pdr_core.pipeline.chest_reference import StepReference
 from pdr_core.records import PoseEstimate, joined, part
 from support.chest import RATE_HZ, compass_walk, walk
 
@@ -78,3 +80,20 @@ def test_the_field_is_learnt_anew_in_the_new_frame():
     (_, plain, _, _), (_, moved, _, card) = placed(3.0, pose(TURN.as_quat()), imu, params=params)
     assert card.health.field_use.name == "HEADING"
     assert np.linalg.norm((moved.position_m - PLACE_M - TURN.apply(plain.position_m))[-1, :2]) < 0.1 * 250.0
+
+
+def test_a_track_that_is_turned_on_the_way_walks_on_in_one_direction():
+    """The step before, of which the next stride is made, is turned with it."""
+    imu, turn_rad = part(walk(2, 44.0).imu, 0, 14 * RATE_HZ), 1.0
+    ways = []
+    for angle_rad in (0.0, turn_rad):
+        navigator = ChestNavigator(ChestParams(), PlaceParams(), StepReference(ChestParams(), GaitParams()))
+
+        def turn(step, navigator=navigator, angle_rad=angle_rad):
+            if step.index == 6:
+                navigator.state.yaw_sd_rad = 1.0
+                navigator.turn_back(-angle_rad, 1e-6)
+
+        steps = navigator.run(imu, turn).steps[6:]
+        ways.append([np.arctan2(*step.displacement_m[1::-1]) for step in steps])
+    assert np.subtract(*ways) == pytest.approx(np.full(len(steps), -turn_rad), abs=0.01)
