@@ -155,8 +155,8 @@ def _error(result: Result) -> list[str]:
 
 
 def _notices(notices: Sequence[Notice]) -> list[str]:
-    """Return one sentence on every error, or else on the first warning, and how many more warnings there are."""
-    bad = sorted((n for n in notices if n.level is not Level.OK), key=lambda n: n.level.value, reverse=True)
+    """Return one sentence on every error, the earliest first, or else on one warning; and how many more there are."""
+    bad = sorted((n for n in notices if n.level is not Level.OK), key=lambda n: (-n.level.value, n.first_stamp_ns))
     told = [n for n in bad if n.level is Level.ERROR] or bad[:1]
     said = [f"{LEVELS[n.level].capitalize()}: {_with_count(n)}" for n in told]
     if len(bad) > len(told):
