@@ -114,3 +114,8 @@ def test_a_foot_whose_recording_ends_before_the_others_costs_neither_anything(tm
         np.testing.assert_array_equal(track.stamp_ns, imu.stamp_ns)
     body = read_tum(tmp_path / "out" / "body" / "trajectory.tum")
     assert body.stamp_ns[-1] == kept["right"].stamp_ns[-1]
+    assert pdr("run", recording, "--out", tmp_path / "run").returncode == 0
+    for folder in ("out", "run"):  # and what the right foot walked alone counts in full
+        result = json.loads((tmp_path / folder / "result.json").read_text())["body"]
+        assert result["distance_m"] == pytest.approx(np.hypot(*body.position_m[-1, :2]), abs=1.4)  # the last stride
+        assert "left has no samples for 4.0 s" in str(result["notices"])
