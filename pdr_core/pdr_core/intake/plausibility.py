@@ -12,7 +12,7 @@ from pdr_core.params import IntakeParams
 from pdr_core.records import Flags, Floats, ImuBlock, Level
 
 IMPOSSIBLE_RATE_RADPS = 60.0  # 3400 deg/s: no foot turns so fast, and hardly any gyro reaches it
-
+MOVING_MPS2 = 30.0  # what a foot that walks from the first sample on may typically show
 ABSURD = 1e6  # no sensor shows so much, in whatever unit, and the square of much more would drown all else
 
 
@@ -59,4 +59,6 @@ def verdict_on_norm(norm_mps2: float) -> str:
         return measured + ": probably in g; set intake.accel_unit, or the unit in the column map, to g"
     if norm_mps2 < 0.5:
         return measured + ": gravity seems to be removed; use the raw acceleration of the driver"
+    if STANDARD_GRAVITY_MPS2 < norm_mps2 < MOVING_MPS2:
+        return measured + " in the first second: stand still then; if the foot did, check the unit and the calibration"
     return measured + ": check the unit and the calibration"

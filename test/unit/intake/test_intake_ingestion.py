@@ -115,6 +115,7 @@ def walking(scale_accel=1.0, scale_gyro=1.0, minus_g=0.0):
         ),
         (walking(minus_g=9.81), "typically 0 m/s^2 instead of 9.81: gravity seems to be removed; use the raw"),
         (walking(9.80665), "typically 96.2 m/s^2 instead of 9.81: check the unit and the calibration"),
+        (walking(1.23), "typically 12.1 m/s^2 instead of 9.81 in the first second: stand still then; if the foot did,"),
         (walking(0.3), "typically 2.94 m/s^2 instead of 9.81: check the unit and the calibration"),
     ],
 )
