@@ -74,7 +74,8 @@ def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
     if good and known.choices:
         good = value in known.choices
     if not good:
-        raise ParameterError(f"{name} = {value!r}: must be {wanted.__name__}, {known.allowed}")
+        allowed = "true or false" if wanted is bool else known.allowed
+        raise ParameterError(f"{name} = {value!r}: must be {wanted.__name__}, {allowed}")
     return value
 
 

@@ -48,7 +48,7 @@ class ExternalParams:
     )
     apart_s: float = parameter(
         0.9,
-        "a fix so soon after another tells nothing new: its error is the same",
+        "a fix so soon after another tells nothing new: its error is the same; known points all count",
         unit="s",
         bounds=(0.0, 60.0),
         source="the errors of a position source last",

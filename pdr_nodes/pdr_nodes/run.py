@@ -24,7 +24,7 @@ def run(make_node: Callable[[], ManagedNode]) -> None:
     signals: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _frame: signals.append(number))
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    begin()
     code = 0
     try:
         node = make_node()
@@ -37,6 +37,15 @@ def run(make_node: Callable[[], ManagedNode]) -> None:
     finally:
         rclpy.shutdown()
     sys.exit(code)
+
+
+def begin() -> None:
+    """Read what ROS was told on the command line; a file of parameters that is no YAML is one sentence too."""
+    try:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        print(f"pdr: {error}", file=sys.stderr)
+        sys.exit(2)
 
 
 def spin(node: ManagedNode, wanted: Callable[[], bool]) -> None:

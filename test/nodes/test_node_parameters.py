@@ -11,7 +11,7 @@ from pdr_nodes.mode_manager_node import ModeManagerNode
 from pdr_nodes.stance_detector_node import StanceDetectorNode
 from pdr_nodes.zupt_ekf_node import ZuptEkfNode
 from support.bench import Bench
-from support.processes import node_process
+from support.processes import node_process, start
 
 GROUPS_OF = {
     ImuDriverNode: ("driver", "simulation", "place", "power", "node"),
@@ -50,6 +50,16 @@ def test_a_bad_parameter_ends_the_process_with_one_sentence(name, tmp_path):
         assert process.wait(60) == 2
     words = "pdr: node.idle_s = 100.0: must be float, within 0.2 .. 60 s\n"
     assert (tmp_path / "log").read_text() == words
+
+
+def test_a_file_that_is_no_yaml_ends_the_process_with_one_sentence(tmp_path):
+    (tmp_path / "mine.yaml").write_text("$ pdr params\n/**: [")
+    command = ["-m", "pdr_nodes.zupt_ekf_node", "--ros-args", "--params-file", str(tmp_path / "mine.yaml")]
+    process = start(command, tmp_path / "log")
+    assert process.wait(60) == 2
+    said = (tmp_path / "log").read_text()
+    assert "Traceback" not in said
+    assert "pdr: failed to initialize rcl: Couldn't parse params file" in said
 
 
 @pytest.mark.parametrize("recording", ["", "/nowhere/walk.csv"])

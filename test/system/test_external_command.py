@@ -84,6 +84,7 @@ def test_two_known_points_lay_a_walk_on_the_map(bag: Path, tmp_path: Path) -> No
 def test_known_points_that_cannot_be_are_refused(bag: Path) -> None:
     check_refused(pdr("run", bag, "--at", "somewhere"), "--at somewhere: give seconds")
     check_refused(pdr("run", bag, "--at", "1:0,0", "--at", "9999:1,1"), "--at 9999: the recording of", "lasts")
+    check_refused(pdr("run", bag, "--at", "3:0,0", "--at", "9:5,0", "--at", "3:1,1"), "--at 3 is given twice")
     check_refused(pdr("run", bag, "--at", "1:0,0", "--external", "/robot/pose"), "leave out --external")
     one = pdr("run", bag, "--at", "1:0,0")
     assert "two known points" in one.stdout

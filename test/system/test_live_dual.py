@@ -2,19 +2,23 @@
 
 import json
 import re
+from functools import partial
 
 import numpy as np
 import pytest
 
 from pdr_bringup_scripts.live.live_recording import messages
+from pdr_bringup_scripts.simulated import pieces
 from pdr_core.params import Params
 from pdr_core.params_file import load_params
 from pdr_core.pipeline import BothFeet, FootInertial
 from pdr_core.rate_limit import RateLimit
-from pdr_core.recording import open_recording
+from pdr_core.recording import Sensor, Session, open_recording
+from pdr_core.recording.export import write_recording
 from pdr_core.recording.tum import read_tum
-from pdr_core.records import joined, length
+from pdr_core.records import ImuBlock, joined, length
 from pdr_nodes.convert import nav_block
+from support.feet import both_walk
 from support.processes import pdr
 
 TOLERANCE = 1e-9
@@ -93,3 +97,25 @@ def test_a_real_walk_through_the_nodes_is_what_run_makes_of_it(recordings, tmp_p
         np.testing.assert_array_equal(said.stamp_ns, known.stamp_ns[rows])
         np.testing.assert_allclose(said.position_m, known.position_m[rows], rtol=0.0, atol=TOLERANCE)
         assert len(said.stamp_ns) > 7000
+
+
+def test_a_foot_whose_recording_ends_before_the_others_costs_neither_anything(tmp_path):
+    """The longer one waits for answers, and nobody for as long as a foot is waited for that may come back."""
+    ends_s = {"left": 8.0, "right": 12.0}
+    walk, recording = both_walk(14.0), tmp_path / "feet.mcap"
+    rows = {foot: (imu.stamp_ns - imu.stamp_ns[0]) * 1e-9 <= ends_s[foot] for foot, imu in walk.items()}
+    kept = {foot: ImuBlock._make(column[rows[foot]] for column in imu) for foot, imu in walk.items()}
+    sensors = [Sensor(foot, None, partial(pieces, imu)) for foot, imu in kept.items()]
+    write_recording(Session("feet", recording, "simulated", {one.name: one for one in sensors}), sensors, recording)
+    answer = pdr("replay", recording, "--rate", 0, "--out", tmp_path / "out")
+    assert answer.returncode == 0, answer.stderr
+    for foot, imu in kept.items():
+        track = read_tum(tmp_path / "out" / foot / "trajectory.tum")
+        np.testing.assert_array_equal(track.stamp_ns, imu.stamp_ns)
+    body = read_tum(tmp_path / "out" / "body" / "trajectory.tum")
+    assert body.stamp_ns[-1] == kept["right"].stamp_ns[-1]
+    assert pdr("run", recording, "--out", tmp_path / "run").returncode == 0
+    for folder in ("out", "run"):  # and what the right foot walked alone counts in full
+        result = json.loads((tmp_path / folder / "result.json").read_text())["body"]
+        assert result["distance_m"] == pytest.approx(np.hypot(*body.position_m[-1, :2]), abs=1.4)  # the last stride
+        assert "left has no samples for 4.0 s" in str(result["notices"])

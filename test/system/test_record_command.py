@@ -14,6 +14,7 @@ from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message
 
 from pdr_bringup_scripts.live.chain import Chain
+from pdr_bringup_scripts.live.graph import OurNode, spoken
 from pdr_bringup_scripts.live.listener import Ears
 from pdr_core.params import Params, changed, params_as_mapping
 from pdr_core.recording import open_recording
@@ -164,6 +165,27 @@ def test_nothing_to_record_is_one_sentence_and_no_file(tmp_path):
         answer, f"no samples of nodes in namespace /{HOME}; nodes of pdr are in ", "/somebody/else", "--namespace"
     )
     assert list(tmp_path.iterdir()) == []
+
+
+class Graph:
+    """Two nodes of `pdr live` with a driver of ours, which publishes where the user's own would."""
+
+    def get_publisher_names_and_types_by_node(self, name, _):
+        said = {"imu_driver": "/imu/data_raw", "imu_ingestion": "/pdr/imu/data"}
+        return [(said[name], ["sensor_msgs/msg/Imu"])]
+
+    def get_subscriber_names_and_types_by_node(self, name, _):
+        return [("/pdr/imu/data_raw", ["sensor_msgs/msg/Imu"])] if name == "imu_ingestion" else []
+
+
+def test_the_raw_input_is_what_the_ingestion_hears_and_nothing_beside_it():
+    """Or every sample would be recorded twice, under one name."""
+    found = spoken(Graph(), [OurNode("imu_driver", "pdr"), OurNode("imu_ingestion", "pdr")], "pdr")
+    assert {s.topic: s.address for s in found.values()} == {
+        "imu/data_raw": "/pdr/imu/data_raw",
+        "imu/data": "/pdr/imu/data",
+    }
+    assert len(found) == 2
 
 
 def test_no_recording_is_overwritten(tmp_path):

@@ -8,7 +8,7 @@ import typer
 
 def demo(
     out: Path = typer.Option(None, "--out", "-o", help="folder for recording, trajectory, result and report"),
-    length: float = typer.Option(None, help="length of the simulated walk [m]; default: 24, with --adaptive 100"),
+    length: float = typer.Option(None, min=1.2, help="length of the walk [m]; default: 24, with --adaptive 100"),
     rate: float = typer.Option(None, help="speed: 2 walks twice as fast as real; default: 1, with --adaptive 6"),
     dual: bool = typer.Option(False, "--dual", help="a sensor on each foot, and the person between them"),
     adaptive: bool = typer.Option(False, "--adaptive", help="the gyro is switched off where strides can be reckoned"),
@@ -30,7 +30,8 @@ def demo(
 
     if dual and adaptive:
         raise Problem("--dual and --adaptive do not go together: the gyro of one foot is switched, not of two")
-    length, rate = length or (100.0 if adaptive else 24.0), rate if rate is not None else (6.0 if adaptive else 1.0)
+    usual = (100.0, 6.0) if adaptive else (24.0, 1.0)
+    length, rate = (default if given is None else given for given, default in zip((length, rate), usual, strict=True))
     chosen = load_params(params) if params else Params()
     chosen = changed(chosen, "driver", device="simulated", rate_factor=rate)
     chosen = changed(chosen, "simulation", walk_length_m=length)

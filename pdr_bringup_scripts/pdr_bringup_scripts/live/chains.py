@@ -1,6 +1,6 @@
 """Several chains that run together."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import ExitStack
 from types import TracebackType
 
@@ -30,10 +30,10 @@ class Chains:
             chain.interrupt()
         self._stack.close()
 
-    def end_feet(self) -> None:
-        """Ask the chains of the drivers to end: what waits for a foot need wait no longer."""
+    def end(self, namespaces: Collection[str]) -> None:
+        """Ask chains to end: what waits for a foot need wait no longer."""
         for chain in self._chains:
-            if chain.has_driver:
+            if chain.namespace in namespaces:
                 chain.interrupt()
 
     @property

@@ -56,7 +56,10 @@ def lies_in(name: str, namespace: str) -> bool:
 
 
 def spoken(graph: Node, nodes: list[OurNode], home: str) -> dict[str, Spoken]:
-    """Return the topics of nodes by address; what an ingestion hears is the raw input, whatever it is called."""
+    """Return the topics of nodes by address; what an ingestion hears is the raw input, whatever it is called.
+
+    What a driver of ours says elsewhere is not: `pdr live` passes it on, and both would be one topic in the recording.
+    """
     found: dict[str, Spoken] = {}
     for node in nodes:
         for address, msgtype, hears in topics_of(graph, node):
@@ -65,7 +68,7 @@ def spoken(graph: Node, nodes: list[OurNode], home: str) -> dict[str, Spoken]:
             if hears and node.name == INGESTION and msgtype in INPUTS:
                 foot = node.namespace.removeprefix(home).strip("/")
                 found[address] = Spoken(address, below(foot, INPUTS[msgtype]), msgtype)
-            else:
+            elif hears or msgtype not in INPUTS or lies_in(inside, home):
                 found.setdefault(address, Spoken(address, topic, msgtype))
     return found
 

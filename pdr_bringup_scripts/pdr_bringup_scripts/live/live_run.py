@@ -8,10 +8,12 @@ from pathlib import Path
 from shutil import rmtree
 from typing import Any
 
-from pdr_bringup_scripts.live.cast import Cast
+from pdr_bringup_scripts.live.cast import Cast, below
 from pdr_bringup_scripts.live.chain import NAMESPACE, stay_on_this_machine
+from pdr_bringup_scripts.live.chains import Chains
 from pdr_bringup_scripts.live.judging import BAG, judge
 from pdr_bringup_scripts.live.listener import Ears, bag_writer, is_status, message
+from pdr_bringup_scripts.live.owed import Owed
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.run.track_book import make_folder
 from pdr_bringup_scripts.terminal import Terminal
@@ -97,7 +99,8 @@ def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
         bag = stack.enter_context(new_recording(out / BAG))
-        watch = Watch(bag.write, show, total(params))
+        both = cast.feet if len(cast.feet) > 1 else {}
+        watch = Watch(bag.write, show, total(params), both)
         ears = stack.enter_context(Ears(watch.take, namespace, cast.topics))
         chains = stack.enter_context(cast.chains(out / "nodes", namespace, driver=True))
         while not (chains.drivers_are_done and watch.quiet_s > quiet_for_good_s(cast)):
@@ -105,9 +108,21 @@ def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
             chains.check()
             if watch.quiet_s > NOTHING_S:
                 raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
-        if len(cast.feet) > 1:
-            chains.end_feet()
+        if both:
+            homes = {foot: below(namespace, foot) for foot in both}
+            if waits := watch.owed.by:  # for the other foot, which has ended before it
+                chains.end([home for foot, home in homes.items() if foot not in waits])
+                listen_until_quiet(ears, chains, watch, quiet_for_good_s(cast))
+            chains.end(homes.values())
             listen_for(ears, AFTERWARDS_S)
+
+
+def listen_until_quiet(ears: Ears, chains: Chains, watch: "Watch", quiet_s: float) -> None:
+    """Hear what the nodes have still to say."""
+    watch.begin_anew()
+    while watch.quiet_s < quiet_s:
+        ears.listen(0.1)
+        chains.check()
 
 
 def listen_for(ears: Ears, seconds: float) -> None:
@@ -125,7 +140,14 @@ def quiet_for_good_s(cast: Cast) -> float:
 class Watch:
     """Passes every message on to the recording and shows where the foot is."""
 
-    def __init__(self, write: Callable[[str, str, int, bytes], None], show: Callable[[str], None], of: str) -> None:
+    def __init__(
+        self,
+        write: Callable[[str, str, int, bytes], None],
+        show: Callable[[str], None],
+        of: str,
+        both: Mapping[str, Params] | None = None,  # of two feet that wait for each other
+    ) -> None:
+        self.owed = Owed(both or {})
         self._write = write
         self._show = show
         self._of = of
@@ -139,8 +161,13 @@ class Watch:
         """How long ago [s] the last message came."""
         return time.monotonic() - self._last_s
 
+    def begin_anew(self) -> None:
+        """Count the silence from now."""
+        self._last_s = time.monotonic()
+
     def take(self, topic: str, name: str, cdr: bytes) -> None:
         """Take one message."""
+        self.owed.hear(topic, cdr)
         self._write(f"/{topic}", name, time.time_ns(), cdr)
         if not is_status(topic):
             self._last_s = time.monotonic()

@@ -5,6 +5,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from pdr_bringup_scripts.provenance import VERSION, commit
+from pdr_bringup_scripts.run.feet_together import FeetTogether
 from pdr_bringup_scripts.run.track_book import TrackBook
 from pdr_core.evaluation.body_page import Way, write_body_report
 from pdr_core.evaluation.body_truth import truth_between
@@ -26,11 +27,13 @@ class BodyBook:
         self.track = TrackBook(truth_between(feet[0].truth, feet[1].truth), out, stack)
         self._way = Way()
         self._ways = {foot.name: Way() for foot in feet}
+        self._together = FeetTogether([foot.name for foot in feet])
         self._out = out
 
     def keep_foot(self, foot: str, output: FootOutput) -> None:
         """Take the next estimates of a foot."""
         self._ways[foot].add(output.nav)
+        self._together.keep(foot, output)
 
     def keep(self, nav: NavBlock) -> None:
         """Take the next estimates of the body."""
@@ -47,7 +50,8 @@ class BodyBook:
         placed_m: Callable[[str, Floats], Floats],
         external: External | None = None,
     ) -> Result:
-        """Return the result and write the files; of strides and distance the feet's mean counts."""
+        """Return the result and write the files; of strides and distance the feet's mean counts, where both are."""
+        strides, distance_m = self._together.totals(feet)
         result = Result(
             recording=str(self._session.path),
             format=self._session.format,
@@ -55,14 +59,14 @@ class BodyBook:
             duration_s=self.track.duration_s,
             pipeline=pipeline,
             **CAUSAL._asdict(),
-            strides=round(sum(foot.strides for foot in feet.values()) / len(feet)),
-            distance_m=sum(foot.distance_m for foot in feet.values()) / len(feet),
+            strides=strides,
+            distance_m=distance_m,
             end_position_m=self.track.scorer.end_position_m,
             closure_2d_m=self.track.scorer.closure_2d_m,
             closure_3d_m=self.track.scorer.closure_3d_m,
             gait=None,
             seconds=seconds,
-            notices=notices,
+            notices=[*notices, *self._together.notices],
             config=params_as_mapping(params),
             truth=self.track.scorer.score([], self.track.scorer.start_position_m),
             version=VERSION,

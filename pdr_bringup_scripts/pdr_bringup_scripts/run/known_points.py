@@ -38,7 +38,7 @@ def known_point(text: str) -> KnownPoint:
 def arrivals_of(points: Sequence[KnownPoint], sensors: Sequence[Sensor]) -> Arrivals:
     """Return the points as they would have come, each sensor's time counted from its own first sample.
 
-    They are stamped as the first sensor is; Problem if its recording ends before one.
+    They are stamped as the first sensor is; Problem if its recording ends before one, or two are of one moment.
     """
     stamps = [stamps_of(sensor) for sensor in sensors]
     told = sorted(points) if all(map(len, stamps)) else []  # without samples there is nothing to lay anywhere
@@ -47,6 +47,8 @@ def arrivals_of(points: Sequence[KnownPoint], sensors: Sequence[Sensor]) -> Arri
     for outside in np.flatnonzero((at_ns < 0) | (at_ns > last_ns - first_ns))[:1]:
         length_s = (last_ns - first_ns) * 1e-9
         raise Problem(f"--at {told[outside].at_s:g}: the recording of {sensors[0].name} lasts {length_s:.1f} s")
+    for again in np.flatnonzero(np.diff(at_ns) == 0)[:1]:
+        raise Problem(f"--at {told[again].at_s:g} is given twice: say one place for one moment")
     places_m = np.array([[point.x_m, point.y_m, 0.0] for point in told]).reshape(-1, 3)
     fixes = FixBlock(first_ns + at_ns, places_m, np.zeros((len(told), 3)), unknown_yaws(len(told)))
     return Arrivals(fixes, np.column_stack([np.searchsorted(ns - ns[:1], at_ns, side="right") for ns in stamps]))

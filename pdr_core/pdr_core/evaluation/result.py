@@ -155,13 +155,17 @@ def _error(result: Result) -> list[str]:
 
 
 def _notices(notices: Sequence[Notice]) -> list[str]:
-    """Return one sentence on the worst notice that is not a mere note, and how many more there are."""
-    bad = sorted((n for n in notices if n.level is not Level.OK), key=lambda n: n.level.value, reverse=True)
-    if not bad:
-        return []
-    times = f" ({bad[0].count} times)" if bad[0].count > 1 else ""
-    more = f"; {counted(len(bad) - 1, 'more warning')}" if len(bad) > 1 else ""
-    return [f"{LEVELS[bad[0].level].capitalize()}: {bad[0].text.rstrip('.')}{times}{more}."]
+    """Return one sentence on every error, the earliest first, or else on one warning; and how many more there are."""
+    bad = sorted((n for n in notices if n.level is not Level.OK), key=lambda n: (-n.level.value, n.first_stamp_ns))
+    told = [n for n in bad if n.level is Level.ERROR] or bad[:1]
+    said = [f"{LEVELS[n.level].capitalize()}: {_with_count(n)}" for n in told]
+    if len(bad) > len(told):
+        said[-1] += f"; {counted(len(bad) - len(told), 'more warning')}"
+    return [text if text.endswith("?") else f"{text}." for text in said]
+
+
+def _with_count(notice: Notice) -> str:
+    return notice.text.rstrip(".") + (f" ({notice.count} times)" if notice.count > 1 else "")
 
 
 def _notice(notice: Notice) -> dict[str, Any]:

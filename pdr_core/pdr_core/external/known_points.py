@@ -39,7 +39,7 @@ def between_known_points(ours_m: Floats, way_covariance_m2: Floats, map_m: Float
     if length_m <= FARTHEST_SD * np.sqrt(side_m2) or map_length_m == 0.0:
         raise ValueError(f"the two points are {length_m:.1f} m apart: too near to each other to tell a direction")
     if abs(length_m - map_length_m) > FARTHEST_SD * spread_m:
-        text = f"{length_m:.1f} m were walked from one point to the other, the map says {map_length_m:.1f} m"
+        text = f"the two points are {length_m:.1f} m apart on the track, {map_length_m:.1f} m on the map"
         raise ValueError(f"{text}: is it the right point?")
     yaw_rad = wrapped_rad(float(np.arctan2(theirs[1], theirs[0]) - np.arctan2(ours[1], ours[0])))
     R = about_up(yaw_rad)

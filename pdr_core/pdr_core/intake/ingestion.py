@@ -7,6 +7,7 @@ from pdr_core.intake.clip_stage import ClipRepair
 from pdr_core.intake.magnetometer import Magnetometer
 from pdr_core.intake.noise import channels, sample_noise
 from pdr_core.intake.plausibility import Plausibility, plausible
+from pdr_core.intake.rate_look import RateLook
 from pdr_core.intake.stamp_policy import StampPolicy
 from pdr_core.maths import quaternion
 from pdr_core.maths.vector import each_rotated
@@ -32,7 +33,8 @@ class Ingestion:
         self._clip_repair = ClipRepair(params)
         self._gyro, self._accel = channels(params)
         self._last = NO_SAMPLES
-        self._plausibility = Plausibility()
+        self._plausibility = Plausibility(params)
+        self._rate_look = RateLook()
         self._tally = Tally()
         self._R_foot_from_sensor = quaternion.matrix(
             quaternion.from_euler(params.mounting_roll_rad, params.mounting_pitch_rad, params.mounting_yaw_rad)
@@ -41,6 +43,7 @@ class Ingestion:
 
     def run(self, raw: ImuBlock) -> ImuBlock:
         """Return what can be used of these samples and of those that waited: in SI units, foot axes, with noise."""
+        self._rate_look.watch(raw.stamp_ns, self._tally)
         return self._conditioned(*self._repaired(self._stamps.run(self._numbers(raw))))
 
     def finish(self) -> ImuBlock:

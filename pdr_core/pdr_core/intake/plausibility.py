@@ -4,21 +4,25 @@ import numpy as np
 
 from pdr_core.conventions import STANDARD_GRAVITY_MPS2
 from pdr_core.intake.first_look import FirstLook
+from pdr_core.intake.range_end import ACCEL, GYRO, RangeEnd
 from pdr_core.maths.compiled import compiled
 from pdr_core.maths.vector import within
 from pdr_core.notices import Tally
+from pdr_core.params import IntakeParams
 from pdr_core.records import Flags, Floats, ImuBlock, Level
 
 IMPOSSIBLE_RATE_RADPS = 60.0  # 3400 deg/s: no foot turns so fast, and hardly any gyro reaches it
-
+MOVING_MPS2 = 30.0  # what a foot that walks from the first sample on may typically show
 ABSURD = 1e6  # no sensor shows so much, in whatever unit, and the square of much more would drown all else
 
 
 class Plausibility:
-    """Looks at the first second of the accelerometer and at every sample of the gyro."""
+    """Looks at the first second of the accelerometer, at every sample of the gyro, and at the largest of both."""
 
-    def __init__(self) -> None:
+    def __init__(self, params: IntakeParams) -> None:
         self._first_look = FirstLook()
+        self._gyro_end = RangeEnd(GYRO, params.gyro_range_radps)
+        self._accel_end = RangeEnd(ACCEL, params.accel_range_mps2)
 
     def watch(self, block: ImuBlock, tally: Tally) -> None:
         """Look at the next samples and tell the tally what is not plausible."""
@@ -27,6 +31,8 @@ class Plausibility:
         tally.add_flagged("gyro_unit", Level.ERROR, text, too_fast, block.stamp_ns)
         if not self._first_look.over:
             self._look_at_accel(block, tally)
+        self._gyro_end.watch(block.gyro_radps, block.stamp_ns, tally)
+        self._accel_end.watch(block.accel_mps2, block.stamp_ns, tally)
 
     def _look_at_accel(self, block: ImuBlock, tally: Tally) -> None:
         norm_mps2 = self._first_look.typical(block.stamp_ns, np.linalg.norm(block.accel_mps2, axis=1))
@@ -53,4 +59,6 @@ def verdict_on_norm(norm_mps2: float) -> str:
         return measured + ": probably in g; set intake.accel_unit, or the unit in the column map, to g"
     if norm_mps2 < 0.5:
         return measured + ": gravity seems to be removed; use the raw acceleration of the driver"
+    if STANDARD_GRAVITY_MPS2 < norm_mps2 < MOVING_MPS2:
+        return measured + " in the first second: stand still then; if the foot did, check the unit and the calibration"
     return measured + ": check the unit and the calibration"

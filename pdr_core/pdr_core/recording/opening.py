@@ -19,7 +19,9 @@ def open_recording(path: Path | str, column_map: Path | None = None) -> Session:
     """
     session = _opened(Path(path), column_map)
     if all(next(sensor.pieces(1), None) is None for sensor in session.sensors.values()):
-        raise RecordingError(f"{path} holds no readable sample: record it again, or copy it again from where it came.")
+        why = "; ".join(notice.text.rstrip(".") for notice in session.notices)
+        advice = why or "record it again, or copy it again from where it came"
+        raise RecordingError(f"{path} holds no readable sample: {advice}.")
     return session
 
 

@@ -55,4 +55,4 @@ def _position(columns: Sequence[str], pattern: str) -> int:
 
 def put_unreadable_times(notices: list[Notice], path: Path, count: int, near_ns: int) -> None:
     """Say that rows without a readable time were left out, the first of them near a stamp [ns]."""
-    put_warning(notices, "unreadable_time", f"{path.name}: rows without a readable time were left out.", count, near_ns)
+    put_warning(notices, "unreadable_time", f"{path.name}: rows whose time is no number were left out.", count, near_ns)

@@ -16,6 +16,7 @@ from pdr_core.records import Floats, ImuBlock, Notice, inertial_block
 
 FOLDER_MAP = "pdr_columns.yaml"
 COLUMNS_SHOWN = 12
+AXES = 6  # of a gyro and an accelerometer
 HOW_TO_MAP = (
     "say which is which in a file '{stem}.yaml' beside it, for example `time: {{column: t, unit: s}}` and `sensors: "
     "{{imu: {{gyro: {{columns: [wx, wy, wz], unit: rad/s}}, accel: {{columns: [ax, ay, az], unit: m/s^2}}}}}}` "
@@ -46,8 +47,11 @@ def _check_fit(chosen: ColumnMap, table: Table, path: Path, source: Path) -> Non
     try:
         positions(table, [*chosen.columns(), *chosen.field_columns()])
     except LookupError as error:
+        advice = "correct the map"
+        if len(table.columns) < AXES:
+            advice = f"these are all columns of its first line: remove what stands before the names, or {advice}"
         raise RecordingError(
-            f"{path} does not fit the column map {source}: {error} of {_shown(table)}; correct the map."
+            f"{path} does not fit the column map {source}: {error} of {_shown(table)}; {advice}."
         ) from error
 
 

@@ -1,5 +1,6 @@
 """Text files of separated columns, read in pieces: in one go with numpy, row by row only where that fails."""
 
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -31,7 +32,7 @@ class TextTable:
         with _opened(self.path) as file:
             _next_lines(file, self.header_rows)
             while lines := _next_lines(file, max_rows):
-                filled = [line for line in lines if line.strip()]
+                filled = [self._with_points(line) for line in lines if line.strip()]
                 rows = self._parsed(filled, clock, columns, done)
                 done += len(filled)
                 if missing := len(filled) - len(rows.stamp_ns):
@@ -40,6 +41,10 @@ class TextTable:
                 if len(rows.stamp_ns):
                     last_stamp_ns = int(rows.stamp_ns[-1])
                     yield rows
+
+    def _with_points(self, line: str) -> str:
+        """Return a row whose decimal commas, which only another delimiter allows, are points."""
+        return line if self.delimiter == "," else line.replace(",", ".")
 
     def _parsed(self, lines: list[str], clock: Clock, columns: Sequence[int], first_row: int) -> Rows:
         try:
@@ -87,7 +92,9 @@ def open_text_table(path: Path, header_rows: int) -> TextTable:
 
 def _opened(path: Path) -> TextIO:
     try:
-        return path.open(encoding="utf-8-sig", errors="replace")
+        with path.open("rb") as file:
+            encoding = "utf-16" if file.read(2) in (BOM_UTF16_LE, BOM_UTF16_BE) else "utf-8-sig"
+        return path.open(encoding=encoding, errors="replace")
     except OSError as error:
         raise RecordingError(f"{path} cannot be read, check its path and its permissions: {error}.") from error
 

@@ -31,7 +31,7 @@ def written(tmp_path, text):
         ({"filter": {"gate": True}}, "filter.gate = True: must be float"),
         ({"simulation": {"seed": 1.0}}, "simulation.seed = 1.0: must be int"),
         ({"simulation": {"seed": True}}, "simulation.seed = True: must be int"),
-        ({"node": {"publish_tf": 1}}, "node.publish_tf = 1: must be bool"),
+        ({"node": {"publish_tf": 1}}, "node.publish_tf = 1: must be bool, true or false"),
         ({"intake": {"accel_unit": "mg"}}, "intake.accel_unit = 'mg': must be str, one of m/s^2, g"),
         ({"driver": {"recording": 7}}, "driver.recording = 7: must be str, any"),
     ],

@@ -138,4 +138,9 @@ def test_the_worst_notice_comes_first_and_notes_stay_silent(make):
     ]
     assert in_words(make.result_of(notices=notices)).endswith(" Error: The range was exceeded; 1 more warning.")
     assert "Fine" not in in_words(make.result_of(notices=notices[:1]))
+    twice = [*notices, Notice(Level.ERROR, "d", "Is it mounted so?", 3, 0)]
+    ending = " Error: The range was exceeded. Error: Is it mounted so? (3 times); 1 more warning."
+    assert in_words(make.result_of(notices=twice)).endswith(ending)
+    asked = in_words(make.result_of(notices=[Notice(Level.WARN, "e", "Is it the right point?", 1, 0)]))
+    assert asked.endswith(" Warning: Is it the right point?")
     assert 2 <= in_words(make.result_of(notices=notices)).count(". ") + 1 <= 4

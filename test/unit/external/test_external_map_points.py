@@ -83,6 +83,15 @@ def test_a_wrong_point_is_named_and_the_next_ones_count():
     assert later.comparison.frame.yaw_rad == told(points(5.0), points(35.0)).comparison.frame.yaw_rad
 
 
+def test_every_point_counts_however_soon_after_another():
+    """She means each of them; only fixes of a source repeat its error."""
+    soon = told(points(5.0), points(34.5), points(35.0))
+    assert kinds(soon) == {"known_point": 1, "known_points": 2}
+    assert soon.comparison.pairs == 3
+    far = told(points(5.0), points(35.0), points(35.5, off_m=[10.0, 0.0, 0.0]))
+    assert kinds(far) == {"known_point": 1, "known_points": 1, "known_point_refused": 1}
+
+
 def test_a_point_before_the_first_estimate_is_named():
     stage = MapPoints(PARAMS)
     stage.take(points(0.0), NO_STAMP)

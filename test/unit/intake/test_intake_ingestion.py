@@ -1,4 +1,5 @@
 import copy
+import re
 
 import numpy as np
 import pytest
@@ -114,6 +115,7 @@ def walking(scale_accel=1.0, scale_gyro=1.0, minus_g=0.0):
         ),
         (walking(minus_g=9.81), "typically 0 m/s^2 instead of 9.81: gravity seems to be removed; use the raw"),
         (walking(9.80665), "typically 96.2 m/s^2 instead of 9.81: check the unit and the calibration"),
+        (walking(1.23), "typically 12.1 m/s^2 instead of 9.81 in the first second: stand still then; if the foot did,"),
         (walking(0.3), "typically 2.94 m/s^2 instead of 9.81: check the unit and the calibration"),
     ],
 )
@@ -148,3 +150,69 @@ def test_nothing_in_nothing_out():
     out, notices = taken(part(still(), 0, 0))
     assert length(out) == 0
     assert not notices
+
+
+def steps(clip_mps2=np.inf, clip_radps=np.inf, rate_hz=100.0):
+    """Ten steps of a second: rate and force swing by 8 rad/s and 50 m/s^2."""
+    n = int(10 * rate_hz)
+    t = np.arange(n) / rate_hz
+    swing = np.column_stack([np.sin(2 * np.pi * t), np.zeros(n), np.zeros(n)])
+    stamps = BEGIN_NS + np.rint(t * 1e9).astype(np.int64)
+    rate, force = np.clip(8.0 * swing, -clip_radps, clip_radps), np.clip(50.0 * swing, -clip_mps2, clip_mps2)
+    return inertial_block(stamps, rate, force + np.array([0.0, 0.0, 9.81]), np.zeros(n), np.zeros(n))
+
+
+@pytest.mark.parametrize(
+    ("clip", "kind", "level", "said"),
+    [
+        ({"clip_radps": 4.36}, "gyro_range", Level.ERROR, "stops at 250 deg/s again and again"),
+        ({"clip_radps": 7.9}, "gyro_range", Level.WARN, "453 deg/s"),
+        ({"clip_mps2": 19.6}, "accel_range", Level.ERROR, "stops at 2.0 g .* choose a larger range"),
+        ({"clip_mps2": 39.2}, "accel_range", Level.WARN, "stops at 4.0 g"),
+    ],
+)
+def test_a_range_that_ends_below_the_one_that_is_named_is_told(clip, kind, level, said):
+    _, notices = taken(steps(**clip), clip_smallest_radps=1e6)
+    assert re.search(said, notices[kind].text)
+    assert (notices[kind].level, notices[kind].count) == (level, 1)
+    _, notices = taken(steps(**clip), gyro_range_radps=clip.get("clip_radps", 34.9), accel_range_mps2=20.0)
+    assert "gyro_range" not in notices
+
+
+def test_the_end_of_a_range_is_told_the_same_in_whatever_pieces():
+    imu, intake = steps(clip_mps2=19.6), Ingestion(IntakeParams())
+    for i in range(0, length(imu), 7):
+        intake.run(part(imu, i, i + 7))
+    intake.finish()
+    assert {n.kind: n for n in intake.notices}["accel_range"] == taken(imu)[1]["accel_range"]
+
+
+def test_a_swing_that_is_not_cut_off_or_a_coarse_rest_has_no_end():
+    coarse = still(2000)
+    coarse.accel_mps2[::7] = [0.0, 0.0, 20.0]
+    for imu in (steps(), coarse):
+        assert {"gyro_range", "accel_range"}.isdisjoint(taken(imu, clip_smallest_radps=1e6)[1])
+
+
+@pytest.mark.parametrize(
+    ("period_ms", "level", "said"),
+    [(25, Level.WARN, "40 times"), (5000, Level.ERROR, "0.2 times .* is the unit of the time right"), (20, None, "")],
+)
+def test_a_rate_that_is_too_low_is_told(period_ms, level, said):
+    notices = taken(still(100, period_ms))[1]
+    assert [(n.level, bool(re.search(said, n.text))) for k, n in notices.items() if k == "sample_rate"] == (
+        [(level, True)] if level else []
+    )
+
+
+def test_a_rate_that_no_sensor_has_is_told():
+    imu = still(100)._replace(stamp_ns=BEGIN_NS + np.arange(100, dtype=np.int64) * 10_000)
+    assert "100000 times a second: is the unit of the time right?" in taken(imu)[1]["sample_rate"].text
+
+
+def test_bursts_a_gap_and_a_clock_that_stands_are_no_rate():
+    """The stamp policy tells of each."""
+    at_ns = np.arange(100, dtype=np.int64) * 10 * MS
+    late = np.where(np.arange(100) > 20, 60_000 * MS, 0)
+    for stamps in (at_ns // (100 * MS) * (100 * MS), at_ns + late, np.zeros(100, np.int64)):
+        assert "sample_rate" not in taken(still(100)._replace(stamp_ns=BEGIN_NS + stamps))[1]
