@@ -16,8 +16,10 @@ RATE_HZ = 100
 
 
 @cache
-def walk(seed: int, length_m: float = 24.0, sensor: str = "icm_20602", name: str = "rectangle") -> SimulatedWalk:
-    """Return a walk; nobody may change it."""
+def walk(
+    seed: int, length_m: float = 24.0, sensor: str = "icm_20602", name: str = "rectangle", magnetometer: bool = False
+) -> SimulatedWalk:
+    """Return a walk, outdoors if the card has a magnetometer; nobody may change it."""
     return simulated_walk(
         SimulationParams(
             motion="chest",
@@ -25,6 +27,7 @@ def walk(seed: int, length_m: float = 24.0, sensor: str = "icm_20602", name: str
             walk_length_m=length_m,
             sensor_model=sensor,
             sample_rate_hz=float(RATE_HZ),
+            magnetometer=magnetometer,
             seed=seed,
         )
     )
@@ -56,16 +59,7 @@ def tilt_error_deg(nav: NavBlock, true: SimulatedWalk) -> np.ndarray:
 @cache
 def compass_walk() -> tuple[SimulatedWalk, ImuBlock]:
     """Return a walk of 250 m in a clean field, and its samples by a gyro that turns by 0.15 deg/s more after 21 s."""
-    settings = SimulationParams(
-        motion="chest",
-        walk="straight",
-        walk_length_m=250.0,
-        sensor_model="icm_20602",
-        sample_rate_hz=float(RATE_HZ),
-        magnetometer=True,
-        seed=2,
-    )
-    true = simulated_walk(settings)
+    true = walk(2, 250.0, name="straight", magnetometer=True)
     up = true.imu.accel_mps2[: 4 * RATE_HZ].mean(axis=0)
     drift = np.radians(0.15) * (true.imu.stamp_ns > 21.0e9)
     return true, true.imu._replace(gyro_radps=true.imu.gyro_radps + drift[:, None] * up / np.linalg.norm(up))

@@ -30,8 +30,8 @@ def demo(
 
     if dual and adaptive:
         raise Problem("--dual and --adaptive do not go together: the gyro of one foot is switched, not of two")
-    usual = (100.0, 6.0) if adaptive else (24.0, 1.0)
-    length, rate = (default if given is None else given for given, default in zip((length, rate), usual, strict=True))
+    usual_m, usual_rate = (100.0, 6.0) if adaptive else (24.0, 1.0)
+    length, rate = usual_m if length is None else length, usual_rate if rate is None else rate
     chosen = load_params(params) if params else Params()
     chosen = changed(chosen, "driver", device="simulated", rate_factor=rate)
     chosen = changed(chosen, "simulation", walk_length_m=length)

@@ -103,26 +103,24 @@ def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
         watch = Watch(bag.write, show, total(params), both)
         ears = stack.enter_context(Ears(watch.take, namespace, cast.topics))
         chains = stack.enter_context(cast.chains(out / "nodes", namespace, driver=True))
-        while not (chains.drivers_are_done and watch.quiet_s > quiet_for_good_s(cast)):
-            ears.listen(0.1)
-            chains.check()
-            if watch.quiet_s > NOTHING_S:
-                raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
+        listen_until_quiet(ears, chains, watch, quiet_for_good_s(cast), out)
         if both:
             homes = {foot: below(namespace, foot) for foot in both}
             if waits := watch.owed.by:  # for the other foot, which has ended before it
                 chains.end([home for foot, home in homes.items() if foot not in waits])
-                listen_until_quiet(ears, chains, watch, quiet_for_good_s(cast))
+                watch.begin_anew()
+                listen_until_quiet(ears, chains, watch, quiet_for_good_s(cast), out)
             chains.end(homes.values())
             listen_for(ears, AFTERWARDS_S)
 
 
-def listen_until_quiet(ears: Ears, chains: Chains, watch: "Watch", quiet_s: float) -> None:
-    """Hear what the nodes have still to say."""
-    watch.begin_anew()
-    while watch.quiet_s < quiet_s:
+def listen_until_quiet(ears: Ears, chains: Chains, watch: "Watch", quiet_s: float, out: Path) -> None:
+    """Hear what the nodes say, until the drivers are done and nothing has come for a while."""
+    while not (chains.drivers_are_done and watch.quiet_s > quiet_s):
         ears.listen(0.1)
         chains.check()
+        if watch.quiet_s > NOTHING_S:
+            raise Problem(f"nothing has come from the nodes for {NOTHING_S:.0f} s; see {out / 'nodes'}")
 
 
 def listen_for(ears: Ears, seconds: float) -> None:

@@ -44,11 +44,12 @@ def arrivals_of(points: Sequence[KnownPoint], sensors: Sequence[Sensor]) -> Arri
     told = sorted(points) if all(map(len, stamps)) else []  # without samples there is nothing to lay anywhere
     at_ns = np.array([nanoseconds(point.at_s) for point in told], np.int64)
     first_ns, last_ns = stamps[0][[0, -1]] if told else (0, 0)
-    for outside in np.flatnonzero((at_ns < 0) | (at_ns > last_ns - first_ns))[:1]:
-        length_s = (last_ns - first_ns) * 1e-9
-        raise Problem(f"--at {told[outside].at_s:g}: the recording of {sensors[0].name} lasts {length_s:.1f} s")
-    for again in np.flatnonzero(np.diff(at_ns) == 0)[:1]:
-        raise Problem(f"--at {told[again].at_s:g} is given twice: say one place for one moment")
+    outside, again = (at_ns < 0) | (at_ns > last_ns - first_ns), np.diff(at_ns) == 0
+    if outside.any():
+        at_s, length_s = told[outside.argmax()].at_s, (last_ns - first_ns) * 1e-9
+        raise Problem(f"--at {at_s:g}: the recording of {sensors[0].name} lasts {length_s:.1f} s")
+    if again.any():
+        raise Problem(f"--at {told[again.argmax()].at_s:g} is given twice: say one place for one moment")
     places_m = np.array([[point.x_m, point.y_m, 0.0] for point in told]).reshape(-1, 3)
     fixes = FixBlock(first_ns + at_ns, places_m, np.zeros((len(told), 3)), unknown_yaws(len(told)))
     return Arrivals(fixes, np.column_stack([np.searchsorted(ns - ns[:1], at_ns, side="right") for ns in stamps]))

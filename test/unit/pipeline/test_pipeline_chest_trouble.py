@@ -5,9 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pdr_core.conventions import STANDARD_GRAVITY_MPS2
-from pdr_core.params import Params, SimulationParams, changed
+from pdr_core.params import Params, changed
 from pdr_core.records import picked
-from pdr_core.simulation import simulated_walk
 from support.chest import RATE_HZ, end_error_m, estimated, params, walk
 
 SEEDS = range(1, 9)
@@ -90,16 +89,7 @@ def test_the_deviations_know_that_somebody_may_have_turned_in_a_gap(gap_s, befor
 
 def test_a_turn_in_a_gap_is_told_by_a_clean_field():
     """For that the yaw must be known to be unknown."""
-    settings = SimulationParams(
-        motion="chest",
-        walk="rectangle",
-        walk_length_m=LENGTH_M,
-        sensor_model="icm_20602",
-        sample_rate_hz=float(RATE_HZ),
-        magnetometer=True,
-        seed=2,
-    )
-    true = simulated_walk(settings)
+    true = walk(2, LENGTH_M, magnetometer=True)
     broken = without(true.imu, first_turn_s(true) - 0.5, first_turn_s(true) + 0.5)
     off, auto = (estimated(broken, changed(Params(), "filter", magnetometer=use))[0] for use in ("off", "auto"))
     assert end_error_m(off, true) > 15.0
