@@ -1,10 +1,14 @@
 """What `pdr live` says when nothing comes, as seen on the graph."""
 
+from types import SimpleNamespace
+
 import pytest
 import rclpy
 from sensor_msgs.msg import Imu, MagneticField
 
+from pdr_bringup_scripts.live.live_run import listen_until_quiet
 from pdr_bringup_scripts.live.relay import DriverTopics, Relay
+from pdr_bringup_scripts.problems import Problem
 from support.bench import Bench
 
 pytestmark = pytest.mark.usefixtures("ros_environment")
@@ -49,3 +53,18 @@ def test_what_comes_is_passed_on_until_it_is_closed(bench):
         bench.spin()
     assert (len(passed), len(bench.heard)) == (1, 1)
     assert bench.heard[0][:2] == ("imu/data_raw", "sensor_msgs/msg/Imu")
+
+
+@pytest.mark.parametrize("quiet_s", [6.5, 30.5])
+def test_nodes_that_have_said_all_are_told_from_nodes_that_say_nothing(quiet_s, tmp_path):
+    """Played at a fifth of its speed a pair of feet is quiet for longer than others ever are."""
+    watch, chains = SimpleNamespace(quiet_s=0.0), SimpleNamespace(drivers_are_done=True, check=lambda: None)
+
+    def listen(seconds):
+        watch.quiet_s += seconds
+
+    listen_until_quiet(SimpleNamespace(listen=listen), chains, watch, quiet_s, tmp_path)
+    assert watch.quiet_s == pytest.approx(quiet_s, abs=0.11)
+    chains.drivers_are_done = False
+    with pytest.raises(Problem, match="nothing has come from the nodes"):
+        listen_until_quiet(SimpleNamespace(listen=listen), chains, watch, quiet_s, tmp_path)
