@@ -61,6 +61,7 @@ class HeadingFusion:
         self._early: list[Callable[[], FusionOutput]] = []  # what came before all clocks were known
         self._steps: Watermark[Asked] = Watermark(feet)
         self._certain: deque[tuple[str, Asked]] = deque()
+        self._own_ns = dict.fromkeys(feet, NO_STAMP)  # the last estimates, on the clock of the foot
         self._begin_clocks(feet, nanoseconds(params.fusion.clock_apart_s))
         self._last_rows: dict[str, NavBlock] = {}
         self._new_worlds: list[tuple[str, int]] = []  # feet that must be found, and since when
@@ -175,15 +176,15 @@ class HeadingFusion:
     def _restart(self, foot: str, stamp_ns: int) -> FusionOutput:
         """Begin anew: the clock of a foot has jumped back, to what the clock of the other one shows now."""
         self._tally.add("clock_jumped_back", Level.WARN, CLOCK_BACK, stamp_ns)
-        last, own_ns = self.finish(), self._own_ns
+        last = self.finish()
         self._body.restart()
         self._begin_clocks(tuple(self._own_ns), RESTART_NS)
-        for other in own_ns.keys() - {foot}:
-            if own_ns[other] == NO_STAMP:
+        for other in self._own_ns.keys() - {foot}:
+            if self._own_ns[other] == NO_STAMP:
                 self._clocks.leave(other)
             else:
-                self._compare_clocks(other, own_ns[other], {})
-        self._compare_clocks(foot, stamp_ns, own_ns)
+                self._compare_clocks(other, self._own_ns[other], {})
+        self._compare_clocks(foot, stamp_ns, self._own_ns)
         return last
 
     def _compare_clocks(self, foot: str, stamp_ns: int, latest_ns: Mapping[str, int]) -> None:
@@ -196,8 +197,7 @@ class HeadingFusion:
         self._first_ns: dict[str, int] = {}  # of feet that came by these clocks
         self._walks_ns: dict[str, int] = {}  # since when
         self._clocks = Clocks(feet, apart_ns)
-        self._own_ns = dict.fromkeys(feet, NO_STAMP)  # the last estimates, on the clock of the foot
-        self._last_ns = dict.fromkeys(feet, NO_STAMP)  # and on the common one
+        self._last_ns = dict.fromkeys(feet, NO_STAMP)  # the last estimates, on the common clock
 
     def _output(self, certain: list[tuple[str, Asked]]) -> FusionOutput:
         """Answer the steps for which the places of both feet are known too, and go on with the body."""

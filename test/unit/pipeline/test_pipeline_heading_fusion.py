@@ -203,6 +203,19 @@ def test_a_foot_that_is_started_anew_with_another_clock_holds_nobody_up_for_long
     assert {"clock_jumped_back", "clocks_apart"} <= kinds
 
 
+def test_a_foot_whose_clock_jumps_twice_leaves_the_person_on_the_clock_of_the_other():
+    left, right = (FootInertial(Params(), heading=None).run(samples()[foot]).nav for foot in FEET)
+    half, start = length(right) // 2, part(left, 0, 50)
+    fusion = HeadingFusion(Params(), FEET)
+    fusion.odometry("left", part(left, 0, half))
+    fusion.odometry("right", part(right, 0, half))
+    for back_ns in (1800 * 10**9, 3600 * 10**9):
+        fusion.odometry("left", start._replace(stamp_ns=start.stamp_ns - back_ns))
+    fusion.odometry("right", part(right, half))
+    assert fusion.leave("left").body.stamp_ns[-1] == right.stamp_ns[-1]
+    assert {notice.kind: notice.count for notice in fusion.notices} == {"clock_jumped_back": 2, "clocks_apart": 2}
+
+
 def test_a_step_that_comes_before_the_clock_of_its_foot_is_answered_on_that_clock():
     booted = {"left": later(samples(**STRAIGHT)["left"], -1.7e9), "right": samples(**STRAIGHT)["right"]}
     left, right = (FootInertial(changed(Params(), "filter", heading_feedback=True)).run(booted[foot]) for foot in FEET)
