@@ -5,8 +5,9 @@ YAML files, ROS declarations and the tables of the documentation are made from i
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from difflib import get_close_matches
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -79,12 +80,19 @@ def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
     return value
 
 
+def unknown(prefix: str, name: str, what: str, known: Iterable[str]) -> ParameterError:
+    """Return the error that a name is none of the known ones, which says the nearest of them if one is near."""
+    names = list(known)
+    near = "".join(f", did you mean {match}?" for match in get_close_matches(name, names, 1)) or ";"
+    return ParameterError(f"{prefix}{name}: unknown {what}{near} known are {', '.join(names)}")
+
+
 def from_mapping(cls: type[T], mapping: Mapping[str, Any], prefix: str = "") -> T:
     """Build a parameter class from {name: value}; missing names keep their default, unknown ones are an error."""
     fields = {f.name: f for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
     for name in mapping:
         if name not in fields:
-            raise ParameterError(f"{prefix}{name}: unknown parameter; known are {', '.join(fields)}")
+            raise unknown(prefix, name, "parameter", fields)
     return cls(**{n: checked(prefix + n, fields[n], v) for n, v in mapping.items()})
 
 

@@ -15,6 +15,8 @@ HEADER = """\
   ros__parameters:
 """
 
+ROS_OWN = ("use_sim_time", "start_type_description_service", "qos_overrides")  # every node has them, offline nobody
+
 Mapping = dict[str, dict[str, Any]]
 
 
@@ -35,12 +37,26 @@ def load_mapping(path: Path) -> Mapping:
 
 
 def ros_parameters(path: Path, content: Any) -> Mapping:
-    """Return what stands below `ros__parameters` of the node `/**`."""
-    node = content.get("/**") if isinstance(content, dict) else None
+    """Return what stands below `ros__parameters` of the node `/**`, or of the only one, as `ros2 param dump` writes."""
+    nodes = content if isinstance(content, dict) else {}
+    node = nodes.get("/**", next(iter(nodes.values())) if len(nodes) == 1 else None)
     parameters = node.get("ros__parameters") if isinstance(node, dict) else None
     if not isinstance(parameters, dict):
         raise ParameterError(f"{path}: must hold groups of parameters below '/**: ros__parameters:', see `pdr params`")
-    return parameters
+    return grouped(parameters)
+
+
+def grouped(parameters: dict[str, Any]) -> Mapping:
+    """Return {group: {name: value}} of parameters that are told so or as `group.name`, without those of ROS itself."""
+    groups: Mapping = {}
+    for name, value in parameters.items():
+        group, dot, rest = str(name).partition(".")
+        if group in ROS_OWN:
+            continue
+        if not dot and not isinstance(value, dict):
+            raise ParameterError(f"{name} = {value!r}: parameters are group.name, see `pdr params`")
+        groups.setdefault(group, {}).update({rest: value} if dot else value)
+    return groups
 
 
 def params_text(mapping: Mapping) -> str:
