@@ -120,5 +120,5 @@ def markdown_rows(cls: type) -> list[str]:
     for field in dataclasses.fields(cls):
         known = meta(field)
         cells = (f"`{field.name}`", f"`{field.default}`", known.unit, known.allowed, known.doc, known.source)
-        rows.append("| " + " | ".join(cells) + " |")
+        rows.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
     return rows

@@ -1,4 +1,5 @@
 import dataclasses
+import re
 
 import pytest
 import yaml
@@ -139,3 +140,9 @@ def test_a_missing_file_and_a_file_of_bytes_are_told_in_one_sentence(tmp_path):
 def test_the_documentation_names_every_parameter():
     text = markdown()
     assert all(f"| `{field.name}` | `{field.default}` |" in text for _, field in FIELDS)
+
+
+def test_no_cell_of_the_documentation_breaks_its_row():
+    rows = [line for line in markdown().splitlines() if line.startswith("| `")]
+    assert len(rows) == len(list(FIELDS))
+    assert [row for row in rows if len(re.findall(r"(?<!\\)\|", row)) != 7] == []
