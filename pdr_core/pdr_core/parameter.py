@@ -12,7 +12,9 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 YAML_TEXT = re.compile(r"[-+]?[0-9]+[eE][-+]?[0-9]+")  # a number that YAML 1.1 takes for a text: it has no dot
+ROS_OWN = ("use_sim_time", "start_type_description_service", "qos_overrides")  # every node has them, offline nobody
 Number = float | int
+Groups = dict[str, dict[str, Any]]  # {group: {name: value}}, not checked
 
 
 class ParameterError(ValueError):
@@ -85,6 +87,19 @@ def unknown(prefix: str, name: str, what: str, known: Iterable[str]) -> Paramete
     names = list(known)
     near = "".join(f", did you mean {match}?" for match in get_close_matches(name, names, 1)) or ";"
     return ParameterError(f"{prefix}{name}: unknown {what}{near} known are {', '.join(names)}")
+
+
+def grouped(parameters: dict[str, Any]) -> Groups:
+    """Return parameters told as {group: {name: value}} or {group.name: value}, without those of ROS itself."""
+    groups: Groups = {}
+    for name, value in parameters.items():
+        group, dot, rest = str(name).partition(".")
+        if group in ROS_OWN:
+            continue
+        if not dot and not isinstance(value, dict):
+            raise ParameterError(f"{name} = {value!r}: parameters are group.name, see `pdr params`")
+        groups.setdefault(group, {}).update({rest: value} if dot else value)
+    return groups
 
 
 def from_mapping(cls: type[T], mapping: Mapping[str, Any], prefix: str = "") -> T:

@@ -5,7 +5,7 @@ from typing import Any
 
 import yaml
 
-from pdr_core.parameter import ParameterError, markdown_rows, yaml_lines
+from pdr_core.parameter import Groups, ParameterError, grouped, markdown_rows, yaml_lines
 from pdr_core.params import GROUPS, Params, params_from_mapping
 
 HEADER = """\
@@ -15,17 +15,13 @@ HEADER = """\
   ros__parameters:
 """
 
-ROS_OWN = ("use_sim_time", "start_type_description_service", "qos_overrides")  # every node has them, offline nobody
-
-Mapping = dict[str, dict[str, Any]]
-
 
 def load_params(path: Path) -> Params:
     """Read a parameter file; raises ParameterError with one sentence if it cannot be used."""
     return params_from_mapping(load_mapping(path))
 
 
-def load_mapping(path: Path) -> Mapping:
+def load_mapping(path: Path) -> Groups:
     """Return what stands in a parameter file, {group: {name: value}}, not checked; else raise ParameterError."""
     if not path.exists():
         raise ParameterError(f"{path} does not exist: check the path")
@@ -36,7 +32,7 @@ def load_mapping(path: Path) -> Mapping:
     return ros_parameters(path, content)
 
 
-def ros_parameters(path: Path, content: Any) -> Mapping:
+def ros_parameters(path: Path, content: Any) -> Groups:
     """Return what stands below `ros__parameters` of the node `/**`, or of the only one, as `ros2 param dump` writes."""
     nodes = content if isinstance(content, dict) else {}
     node = nodes.get("/**", next(iter(nodes.values())) if len(nodes) == 1 else None)
@@ -46,20 +42,7 @@ def ros_parameters(path: Path, content: Any) -> Mapping:
     return grouped(parameters)
 
 
-def grouped(parameters: dict[str, Any]) -> Mapping:
-    """Return {group: {name: value}} of parameters that are told so or as `group.name`, without those of ROS itself."""
-    groups: Mapping = {}
-    for name, value in parameters.items():
-        group, dot, rest = str(name).partition(".")
-        if group in ROS_OWN:
-            continue
-        if not dot and not isinstance(value, dict):
-            raise ParameterError(f"{name} = {value!r}: parameters are group.name, see `pdr params`")
-        groups.setdefault(group, {}).update({rest: value} if dot else value)
-    return groups
-
-
-def params_text(mapping: Mapping) -> str:
+def params_text(mapping: Groups) -> str:
     """Return the text of a parameter file that says this much and no more."""
     return yaml.safe_dump({"/**": {"ros__parameters": mapping}}, sort_keys=False)
 

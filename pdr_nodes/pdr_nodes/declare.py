@@ -6,9 +6,8 @@ from typing import Any
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
-from pdr_core.parameter import meta
+from pdr_core.parameter import grouped, meta
 from pdr_core.params import GROUPS, Params, params_from_mapping
-from pdr_core.params_file import grouped
 
 
 def read_params(node: Node, groups: tuple[str, ...]) -> Params:

@@ -7,8 +7,8 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
+from pdr_core.parameter import grouped
 from pdr_core.params import params_from_mapping
-from pdr_core.params_file import grouped
 
 LAUNCH = Path(__file__).resolve().parents[2] / "pdr_bringup_scripts" / "launch"
 
