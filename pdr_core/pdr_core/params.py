@@ -193,6 +193,9 @@ class NodeParams:
     idle_s: float = parameter(
         1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)
     )
+    ends_with: str = parameter(
+        "", "idle_s counts only once nobody publishes this topic, as a driver's; empty: from the last sample on"
+    )
 
     @property
     def foot_patience_s(self) -> float:
