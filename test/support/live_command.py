@@ -13,6 +13,7 @@ from support.processes import END_S, start
 
 ANSWER_S = 300.0  # nodes may still be starting, and wait for each other
 HEARD_S = 0.5  # what was published last is on its way
+PATIENT = "/**: {ros__parameters: {node: {answer_timeout_s: 0.0, field_wait_s: 10.0}}}"
 
 
 def live_until_done(folder: Path, drivers: Sequence[tuple[object, ...]], *arguments: object) -> tuple[int, str, str]:
@@ -32,6 +33,12 @@ def live_until_done(folder: Path, drivers: Sequence[tuple[object, ...]], *argume
         live.send_signal(signal.SIGINT)
         said, complained = live.communicate(timeout=ANSWER_S)
     return live.returncode, said, complained
+
+
+def patience(folder: Path) -> tuple[str, Path]:
+    """Return arguments by which a foot, or its field, that a busy machine holds up is waited for."""
+    (folder / "patient.yaml").write_text(PATIENT)
+    return "--params", folder / "patient.yaml"
 
 
 def ended(process: subprocess.Popen) -> None:

@@ -15,7 +15,7 @@ from pdr_core.recording import open_recording
 from pdr_core.recording.tum import read_tum
 from pdr_core.records import joined, length
 from pdr_nodes.convert import stance_block
-from support.live_command import live_until_done
+from support.live_command import live_until_done, patience
 from support.processes import END_S, check_refused, pdr
 from support.walks import straight_walk, write_csv
 
@@ -33,7 +33,8 @@ def run(request, walk, tmp_path_factory):
     """A live run that Ctrl-C ends: its folder, its exit code and what it said."""
     folder = tmp_path_factory.mktemp("live")
     driver = (walk, "/your/imu", request.param, SPEED, "mag")
-    return folder / "out", *live_until_done(folder, [driver], "--imu", "your/imu", "--mag", "/your/imu_mag")
+    topics = "--imu", "your/imu", "--mag", "/your/imu_mag"
+    return folder / "out", *live_until_done(folder, [driver], *topics, *patience(folder))
 
 
 def test_ctrl_c_ends_it_well(run):

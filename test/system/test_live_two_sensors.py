@@ -14,7 +14,7 @@ from pdr_core.recording.tum import read_tum
 from pdr_core.records import joined, part
 from pdr_core.simulation import simulated_feet
 from support.feet import FEET
-from support.live_command import live_until_done
+from support.live_command import live_until_done, patience
 from support.processes import pdr
 from support.walks import BEGIN_NS, write_csv
 
@@ -25,7 +25,6 @@ ROWS = {
 }  # Ctrl-C comes in the middle of the walk, and the left foot waits for the right one
 TOLERANCE = 1e-9
 PARTS = {"left": "left/imu", "right": "right/imu", "body": "body"}  # where they are in the folders of live and of run
-PATIENT = "/**: {ros__parameters: {node: {answer_timeout_s: 0.0}}}"  # a busy machine may hold up one of the feet
 pytestmark = pytest.mark.usefixtures("ros_environment")
 
 
@@ -43,12 +42,11 @@ def walks():
 def run(walks, tmp_path_factory):
     """A run that Ctrl-C ends: its folder, its exit code and what it said."""
     folder = tmp_path_factory.mktemp("feet")
-    (folder / "patient.yaml").write_text(PATIENT)
     drivers = [(write_csv(folder / f"{f}.csv", walks[f]), f"/{f}_shoe/imu", "RELIABLE", SPEED, "mag") for f in FEET]
     topics = [
         part for foot in FEET for part in (f"--{foot}", f"/{foot}_shoe/imu", f"--{foot}-mag", f"/{foot}_shoe/imu_mag")
     ]
-    return folder / "out", *live_until_done(folder, drivers, *topics, "--params", folder / "patient.yaml")
+    return folder / "out", *live_until_done(folder, drivers, *topics, *patience(folder))
 
 
 @pytest.fixture(scope="module")
