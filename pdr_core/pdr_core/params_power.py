@@ -99,6 +99,12 @@ class PowerParams:
     retry_s: float = parameter(
         5.0, "a driver at fault is asked again to keep the gyro on so often", unit="s", bounds=(0.1, 600.0)
     )
+    silent_s: float = parameter(
+        2.0,
+        "where nothing is heard of the walk for so long, by the wall clock, the driver is taken to be gone",
+        unit="s",
+        bounds=(0.2, 600.0),
+    )
     part: str = parameter(
         "mpu9250",
         "the sensor whose charge is counted",

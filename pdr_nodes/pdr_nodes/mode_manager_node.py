@@ -23,8 +23,7 @@ from pdr_nodes.run import run
 PERIOD_S = 1.0  # of what is said where nothing changes
 LOOK_S = 0.1
 LEAVE_S = 0.2
-SILENT_S = 2.0  # without a word of the walk the driver is taken to be gone
-SILENT = f"nothing was heard of the walk for {SILENT_S:.0f} s: do the driver and gait_dr run?"
+SILENT = "nothing was heard of the walk for {:g} s: do the driver and gait_dr run?"
 
 
 class ModeManagerNode(ManagedNode):
@@ -37,6 +36,7 @@ class ModeManagerNode(ManagedNode):
         """Hear of the walk, call the driver, say what navigates."""
         self._supervision = Supervision(params.power)
         self._calls = DriverCalls(self, params.power.answer_timeout_s, self._answered, self._supervision.rated)
+        self._silent_s, self._silent = params.power.silent_s, SILENT.format(params.power.silent_s)
         self._heard_s: float | None = None  # None: not yet, or not since it was taken to be gone
         self._modes = self.output(NavigationMode, "mode", MODES)
         self.part(Hearing(self, WalkStatus, "walk", self._walked, ANSWERS))
@@ -66,15 +66,15 @@ class ModeManagerNode(ManagedNode):
 
     def _look(self) -> None:
         """Look whether the driver is still there."""
-        if self._heard_s is not None and time.monotonic() - self._heard_s > SILENT_S:
+        if self._heard_s is not None and time.monotonic() - self._heard_s > self._silent_s:
             self._heard_s = None
-            self._obey(self._supervision.lost(SILENT))
+            self._obey(self._supervision.lost(self._silent))
 
     def _say(self) -> None:
         self._modes.publish(mode_message(self._supervision.report))
 
     def _notices(self) -> list[Notice]:
-        found = [] if self._heard_s is not None else [Notice(Level.WARN, f"{NO_INPUT}_walk", SILENT, 1, 0)]
+        found = [] if self._heard_s is not None else [Notice(Level.WARN, f"{NO_INPUT}_walk", self._silent, 1, 0)]
         found += [] if self._calls.offered else [Notice(Level.WARN, NO_DRIVER, self._calls.nobody, 1, 0)]
         return [*found, *self._supervision.notices]
 

@@ -13,6 +13,7 @@ FUSION = "heading_fusion"
 SAID = {NODES: OF_A_FOOT, ADAPTIVE: OF_A_FOOT | OF_A_SWITCHED_FOOT, ON_CHEST: OF_A_SENSOR}  # by the nodes of a sensor
 OF_A_NODE = ("imu/data_raw", "imu/data", "stance", "odom")  # a topic of every node of a foot
 LONGEST_ANSWER_S = 60.0
+SILENT_S = 6.0
 LEAD_SAMPLES = 60  # a few times as many as go to one decision
 FOOT = "foot"  # the namespace of a foot alone whose steps are answered
 
@@ -91,11 +92,12 @@ def one_switched_foot(params: Params) -> Cast:
     """Return the nodes of a foot alone whose gyro is switched.
 
     The time within which the driver must answer is one by the wall clock, however fast the walk is played. On a busy
-    machine the driver waits for the others: what it is asked then holds as soon as elsewhere.
+    machine the driver waits for the others: what it is asked then holds as soon as elsewhere. It is ours and does not
+    go: a longer silence is that of the machine.
     """
     speed = max(1.0, params.driver.rate_factor)
     timeout_s = min(params.power.answer_timeout_s * speed, LONGEST_ANSWER_S)
-    params = changed(params, "power", answer_timeout_s=timeout_s)
+    params = changed(params, "power", answer_timeout_s=timeout_s, silent_s=max(params.power.silent_s, SILENT_S))
     return Cast({"": changed(params, "driver", acknowledge_topic="walk", lead_samples=LEAD_SAMPLES)}, nodes=ADAPTIVE)
 
 
