@@ -60,10 +60,11 @@ class Cast:
     def chains(
         self, logs: Path, namespace: str, driver: bool, remapped: Mapping[str, Mapping[str, str]] | None = None
     ) -> Chains:
-        """Return the processes, not yet started."""
+        """Return the processes, not yet started. A driver that switches its gyro may be killed, to see what happens."""
         nodes = (*self.nodes, DRIVER) if driver else self.nodes
+        kept = (DRIVER,) if self.adaptive else ()
         chains = [
-            Chain(logs / foot, params_as_mapping(params), below(namespace, foot), nodes, remapped)
+            Chain(logs / foot, params_as_mapping(params), below(namespace, foot), nodes, remapped, kept)
             for foot, params in self.feet.items()
         ]
         if self.person:

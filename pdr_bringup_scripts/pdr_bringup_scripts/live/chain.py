@@ -5,7 +5,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from types import TracebackType
 
@@ -32,11 +32,14 @@ class Chain:
         namespace: str,
         nodes: tuple[str, ...] = (*NODES, DRIVER),
         remapped: Mapping[str, Mapping[str, str]] | None = None,  # {node: {topic: its other name}}
+        kept: Collection[str] = (),  # the nodes that are started again when somebody kills them
     ) -> None:
         self._folder = folder
         self.namespace = namespace
         self._nodes = nodes
         self._remapped = remapped or {}
+        self._kept = kept
+        self.restarts = 0
         self._parameters = folder / "parameters.yaml"
         self._content = {"/**": {"ros__parameters": parameters}}
         self._processes: dict[str, subprocess.Popen] = {}
@@ -71,7 +74,7 @@ class Chain:
     @property
     def driver_is_done(self) -> bool:
         """A driver was started, has delivered everything and ended."""
-        return self.has_driver and self._processes[DRIVER].poll() is not None
+        return self.has_driver and self._processes[DRIVER].poll() == 0
 
     @property
     def pids(self) -> dict[str, int]:
@@ -79,9 +82,14 @@ class Chain:
         return {name: process.pid for name, process in self._processes.items()}
 
     def check(self) -> None:
-        """Raise a Problem if a node has died."""
+        """Start a node again that somebody has killed, if it is to be kept; raise a Problem if another one has died."""
         for name, process in self._processes.items():
-            if process.poll() not in (None, 0):
+            if process.poll() in (None, 0):
+                continue
+            if name in self._kept and process.returncode < 0:  # by a signal
+                self._processes[name] = self._start(name)
+                self.restarts += 1
+            else:
                 raise Problem(f"{name} has failed: {self._last_words(name)}")
 
     def _start(self, name: str) -> subprocess.Popen:

@@ -43,11 +43,16 @@ class Chains:
         return bool(done) and all(done)
 
     @property
+    def restarts(self) -> int:
+        """How often a node was killed and started again."""
+        return sum(chain.restarts for chain in self._chains)
+
+    @property
     def pids(self) -> dict[str, int]:
         """The process of each node, by its full name."""
         return {f"{chain.namespace}/{name}": pid for chain in self._chains for name, pid in chain.pids.items()}
 
     def check(self) -> None:
-        """Raise a Problem if a node has died."""
+        """Start again what is to be kept; raise a Problem if another node has died."""
         for chain in self._chains:
             chain.check()

@@ -15,11 +15,12 @@ from pdr_core.params import Params
 from pdr_core.pipeline import BodySteps, FootOutput, HeadingFusion
 from pdr_core.pipeline.both_feet import BODY
 from pdr_core.recording import Sensor, Session, open_recording
-from pdr_core.records import length
+from pdr_core.records import Level, Notice, length
 
 PIPELINE, BODY_PIPELINE = f"foot_inertial{LIVE}", f"both_feet{LIVE}"
 SWITCHED_PIPELINE, CHEST_PIPELINE = f"foot_adaptive{LIVE}", f"{CHEST}{LIVE}"
 BAG = "recording"
+RESTARTED = "imu_driver was killed and started again: its walk began anew, so there is no truth to compare with"
 
 
 @dataclass(frozen=True)
@@ -31,18 +32,26 @@ class Run:
     namespace: str
     seconds: float
     sources: Mapping[str, Sensor]  # of the feet whose truth is not in the recording
+    restarts: int = 0  # of a driver, whose walk began anew each time
 
     def sensor(self, foot: str) -> Sensor:
         """Return the samples of a foot, with what is known of the truth."""
         recorded = replace(self.session.sensors[below(foot, "imu")], name=foot or "imu")
+        if self.restarts:
+            return replace(recorded, truth=None)
         return replace(recorded, truth=self.sources[foot].truth) if foot in self.sources else recorded
+
+    @property
+    def notices(self) -> list[Notice]:
+        """What is to be known of the run itself."""
+        return [Notice(Level.WARN, "driver_restarted", RESTARTED, self.restarts, 0)] if self.restarts else []
 
 
 def judge(
-    cast: Cast, out: Path, seconds: float, sources: Mapping[str, Sensor], namespace: str
+    cast: Cast, out: Path, seconds: float, sources: Mapping[str, Sensor], namespace: str, restarts: int = 0
 ) -> Result | SensorsResult:
     """Compare what the nodes said with the truth, and write the files; of two feet and the body in a folder each."""
-    run = Run(open_recording(out / BAG), out / BAG, namespace, seconds, sources)
+    run = Run(open_recording(out / BAG), out / BAG, namespace, seconds, sources, restarts)
     if cast.person and len(cast.feet) > 1:
         return judge_both(run, cast, cast.person, out)
     ((foot, params),) = cast.feet.items()
@@ -74,7 +83,7 @@ def judge_switched(run: Run, foot: str, params: Params, out: Path) -> Result:
             book.keep(output)
         samples = sum(length(piece) for piece in run.sensor(foot).pieces())
         of_walk = decided(run.bag, foot)
-        said = switched_notices(run.bag, of_walk, run.namespace)
+        said = run.notices + switched_notices(run.bag, of_walk, run.namespace)
         return book.close(SWITCHED_PIPELINE, params, samples, run.seconds, said, saving=of_walk.saving)
 
 

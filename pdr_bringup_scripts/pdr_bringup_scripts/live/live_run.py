@@ -57,8 +57,8 @@ def live_run(
         warm_up(params, both=bool(cast.person), adaptive=cast.adaptive)
     begin = time.monotonic()
     stay_on_this_machine(out / "nodes", domain)
-    record(cast, out, namespace, terminal)
-    return judge(cast, out, time.monotonic() - begin, sources or {}, namespace)
+    restarts = record(cast, out, namespace, terminal)
+    return judge(cast, out, time.monotonic() - begin, sources or {}, namespace, restarts)
 
 
 def make_run_folder(out: Path) -> None:
@@ -94,8 +94,8 @@ def for_one_run(params: Params) -> Params:
     return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
 
 
-def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
-    """Run the nodes and write all they say to a bag."""
+def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> int:
+    """Run the nodes and write all they say to a bag; return how often one was killed and started again."""
     params = next(iter(cast.feet.values()))
     with ExitStack() as stack:
         show = stack.enter_context(terminal.progress("Walking"))
@@ -112,6 +112,7 @@ def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
                 listen_until_quiet(ears, chains, watch, quiet_for_good_s(cast), out)
             chains.end(homes.values())
             listen_for(ears, AFTERWARDS_S)
+        return chains.restarts
 
 
 def listen_until_quiet(ears: Ears, chains: Chains, watch: "Watch", quiet_s: float, out: Path) -> None:
