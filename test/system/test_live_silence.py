@@ -6,7 +6,8 @@ import pytest
 import rclpy
 from sensor_msgs.msg import Imu, MagneticField
 
-from pdr_bringup_scripts.live.live_run import listen_until_quiet
+from pdr_bringup_scripts.live import live_run
+from pdr_bringup_scripts.live.live_run import START_S, Watch, listen_until_quiet
 from pdr_bringup_scripts.live.relay import DriverTopics, Relay
 from pdr_bringup_scripts.problems import Problem
 from support.bench import Bench
@@ -68,3 +69,16 @@ def test_nodes_that_have_said_all_are_told_from_nodes_that_say_nothing(quiet_s, 
     chains.drivers_are_done = False
     with pytest.raises(Problem, match="nothing has come from the nodes"):
         listen_until_quiet(SimpleNamespace(listen=listen), chains, watch, quiet_s, tmp_path)
+
+
+def test_nodes_that_are_still_starting_are_not_silent(monkeypatch):
+    now_s = [100.0]
+    clock = SimpleNamespace(monotonic=lambda: now_s[0], time_ns=lambda: 0)
+    monkeypatch.setattr(live_run, "time", clock)
+    watch = Watch(lambda *_: None, lambda _: None, "")
+    now_s[0] += START_S + 5.0
+    assert watch.quiet_s == 5.0
+    watch.take("odom", "nav_msgs/msg/Odometry", b"")
+    assert watch.quiet_s == 0.0
+    now_s[0] += 5.0
+    assert watch.quiet_s == 5.0
