@@ -11,8 +11,9 @@ from pdr_bringup_scripts.calibration_words import AXES, cards, in_words
 from pdr_bringup_scripts.problems import Problem
 from pdr_bringup_scripts.provenance import VERSION
 from pdr_core.evaluation.mag_page import FieldView, mag_page
+from pdr_core.parameter import Groups
 from pdr_core.params import Params
-from pdr_core.params_file import Mapping, params_text
+from pdr_core.params_file import params_text
 from pdr_core.pipeline.mag_calibration import (
     CalibratedRecording,
     CalibrationError,
@@ -30,7 +31,7 @@ def check_outputs(inputs: Iterable[Path | None], outputs: Iterable[Path | None])
             raise Problem(f"{path} is what the calibration is made from: choose another name")
 
 
-def calibrated(session: Session, sensor: Sensor, params: Params, given: Mapping) -> CalibratedRecording:
+def calibrated(session: Session, sensor: Sensor, params: Params, given: Groups) -> CalibratedRecording:
     """Return the calibration of a sensor; Problem where the recording does not determine it.
 
     `given` is what stands in the parameter file: a latitude that nobody has written there is not known.
@@ -71,7 +72,7 @@ def rounded(value: float, digits: int) -> float:
     return round(float(value), digits)
 
 
-def write_parameters(path: Path, found: MagCalibration, given: Mapping) -> None:
+def write_parameters(path: Path, found: MagCalibration, given: Groups) -> None:
     """Write a parameter file: what stands in the given one, and the calibration."""
     new = as_parameters(found)
     merged = {group: {**given.get(group, {}), **new.get(group, {})} for group in {**given, **new}}

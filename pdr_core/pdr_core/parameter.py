@@ -5,13 +5,16 @@ YAML files, ROS declarations and the tables of the documentation are made from i
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from difflib import get_close_matches
 from typing import Any, TypeVar
 
 T = TypeVar("T")
 YAML_TEXT = re.compile(r"[-+]?[0-9]+[eE][-+]?[0-9]+")  # a number that YAML 1.1 takes for a text: it has no dot
+ROS_OWN = ("use_sim_time", "start_type_description_service", "qos_overrides")  # every node has them, offline nobody
 Number = float | int
+Groups = dict[str, dict[str, Any]]  # {group: {name: value}}, not checked
 
 
 class ParameterError(ValueError):
@@ -79,12 +82,32 @@ def checked(name: str, field: dataclasses.Field, value: Any) -> Any:
     return value
 
 
+def unknown(prefix: str, name: str, what: str, known: Iterable[str]) -> ParameterError:
+    """Return the error that a name is none of the known ones, which says the nearest of them if one is near."""
+    names = list(known)
+    near = "".join(f", did you mean {match}?" for match in get_close_matches(name, names, 1)) or ";"
+    return ParameterError(f"{prefix}{name}: unknown {what}{near} known are {', '.join(names)}")
+
+
+def grouped(parameters: dict[str, Any]) -> Groups:
+    """Return parameters told as {group: {name: value}} or {group.name: value}, without those of ROS itself."""
+    groups: Groups = {}
+    for name, value in parameters.items():
+        group, dot, rest = str(name).partition(".")
+        if group in ROS_OWN:
+            continue
+        if not dot and not isinstance(value, dict):
+            raise ParameterError(f"{name} = {value!r}: parameters are group.name, see `pdr params`")
+        groups.setdefault(group, {}).update({rest: value} if dot else value)
+    return groups
+
+
 def from_mapping(cls: type[T], mapping: Mapping[str, Any], prefix: str = "") -> T:
     """Build a parameter class from {name: value}; missing names keep their default, unknown ones are an error."""
     fields = {f.name: f for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
     for name in mapping:
         if name not in fields:
-            raise ParameterError(f"{prefix}{name}: unknown parameter; known are {', '.join(fields)}")
+            raise unknown(prefix, name, "parameter", fields)
     return cls(**{n: checked(prefix + n, fields[n], v) for n, v in mapping.items()})
 
 
@@ -112,5 +135,5 @@ def markdown_rows(cls: type) -> list[str]:
     for field in dataclasses.fields(cls):
         known = meta(field)
         cells = (f"`{field.name}`", f"`{field.default}`", known.unit, known.allowed, known.doc, known.source)
-        rows.append("| " + " | ".join(cells) + " |")
+        rows.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
     return rows

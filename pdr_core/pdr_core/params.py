@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-from pdr_core.parameter import ParameterError, from_mapping, parameter
+from pdr_core.parameter import ParameterError, from_mapping, parameter, unknown
 from pdr_core.params_attitude import AttitudeParams as AttitudeParams
 from pdr_core.params_attitude import DedriftParams as DedriftParams
 from pdr_core.params_chest import ChestParams as ChestParams
@@ -193,6 +193,9 @@ class NodeParams:
     idle_s: float = parameter(
         1.0, "after so long without samples, those that wait for later ones are judged", unit="s", bounds=(0.2, 60.0)
     )
+    ends_with: str = parameter(
+        "", "idle_s counts only once nobody publishes this topic, as a driver's; empty: from the last sample on"
+    )
 
     @property
     def foot_patience_s(self) -> float:
@@ -230,7 +233,7 @@ def params_from_mapping(mapping: Mapping[str, Mapping[str, Any]]) -> Params:
     """Build the parameters from {group: {name: value}}; unknown groups and names stop with a ParameterError."""
     for group, values in mapping.items():
         if group not in GROUPS:
-            raise ParameterError(f"{group}: unknown group of parameters; known are {', '.join(GROUPS)}")
+            raise unknown("", group, "group of parameters", GROUPS)
         if not isinstance(values, Mapping):
             raise ParameterError(f"{group} = {values!r}: must be a mapping of parameters")
     return Params(**{g: from_mapping(GROUPS[g], values, f"{g}.") for g, values in mapping.items()})

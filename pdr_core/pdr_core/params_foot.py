@@ -58,7 +58,7 @@ class StanceParams:
     )
     quiet_max: float = parameter(
         300.0,
-        "what is more than this is no noise of a resting sensor; 0: noise does not raise the threshold",
+        "the noise of a resting sensor counts as this at most; 0: noise does not raise the threshold",
         bounds=(0.0, 1e6),
     )
     still_sd_mps: float = parameter(

@@ -6,10 +6,8 @@ from typing import Any
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
-from pdr_core.parameter import ParameterError, meta
+from pdr_core.parameter import grouped, meta
 from pdr_core.params import GROUPS, Params, params_from_mapping
-
-ROS_OWN = ("use_sim_time", "start_type_description_service", "qos_overrides")
 
 
 def read_params(node: Node, groups: tuple[str, ...]) -> Params:
@@ -18,8 +16,8 @@ def read_params(node: Node, groups: tuple[str, ...]) -> Params:
     The node is made with `automatically_declare_parameters_from_overrides`, so what the user gave is declared
     already, but without text and bounds. One file serves all nodes: values of other groups are checked too.
     """
-    given = {n: p.value for n, p in node.get_parameters_by_prefix("").items() if n.split(".")[0] not in ROS_OWN}
-    params = params_from_mapping(nested(given))
+    given = {name: parameter.value for name, parameter in node.get_parameters_by_prefix("").items()}
+    params = params_from_mapping(grouped(given))
     for group in groups:
         for field in dataclasses.fields(GROUPS[group]):
             name = f"{group}.{field.name}"
@@ -32,17 +30,6 @@ def read_params(node: Node, groups: tuple[str, ...]) -> Params:
             else:
                 node.declare_parameter(name, field.default, shown)
     return params
-
-
-def nested(dotted: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Return {'group.name': value} as {group: {name: value}}."""
-    groups: dict[str, dict[str, Any]] = {}
-    for name, value in dotted.items():
-        group, dot, rest = name.partition(".")
-        if not dot:
-            raise ParameterError(f"{name}: unknown parameter; parameters are group.name, see `pdr params`")
-        groups.setdefault(group, {})[rest] = value
-    return groups
 
 
 def descriptor(field: Any) -> ParameterDescriptor:

@@ -20,6 +20,7 @@ from pdr_nodes.placing import Placing
 from pdr_nodes.run import run
 
 PERIOD_S = 0.05
+LAST_WORDS_S = 0.05  # what a node has said that has ended may have come and not been seen
 
 
 class HeadingFusionNode(ManagedNode):
@@ -39,7 +40,7 @@ class HeadingFusionNode(ManagedNode):
         self._placing = Placing(self, node.world_frame, self._placed.place) if self.PLACES else None
         self._feet = {name: FootTopics(self, name, node.world_frame, self._stepped, self._moved) for name in names}
         for name in names:
-            self.every(PERIOD_S, partial(self._look_at, name, self._patience_with(name, node.foot_patience_s)))
+            self._wait_for(name, node.foot_patience_s)
         self.tell("person", self._notices)
 
     def make_fusion(self, params: Params, feet: tuple[str, ...]) -> HeadingFusion | AidedFusion:
@@ -52,15 +53,17 @@ class HeadingFusionNode(ManagedNode):
     def _moved(self, foot: str, nav: NavBlock) -> None:
         self._say(self._fusion.odometry(foot, nav))
 
-    def _patience_with(self, foot: str, while_s: float) -> Patience:
-        return Patience(while_s, lambda: self._fusion.awaited_ns.get(foot), partial(self._go_on_without, foot))
+    def _wait_for(self, foot: str, while_s: float) -> None:
+        """Wait for a foot no longer that has ended, once its last words are heard, or that lets wait for too long."""
+        for so_long_s, waits in ((while_s, self._awaited_ns), (LAST_WORDS_S, self._awaits_in_vain)):
+            patience = Patience(so_long_s, partial(waits, foot), partial(self._go_on_without, foot))
+            self.every(PERIOD_S, patience.look)
 
-    def _look_at(self, foot: str, patience: Patience) -> None:
-        """Wait for a foot no longer that has ended, or has been waited for for too long."""
-        if foot in self._fusion.awaited_ns and self._feet[foot].has_ended:
-            self._go_on_without(foot)
-        else:
-            patience.look()
+    def _awaited_ns(self, foot: str) -> int | None:
+        return self._fusion.awaited_ns.get(foot)
+
+    def _awaits_in_vain(self, foot: str) -> bool:
+        return foot in self._fusion.awaited_ns and self._feet[foot].has_ended
 
     def _go_on_without(self, foot: str) -> None:
         self._say(self._fusion.leave(foot))

@@ -53,6 +53,7 @@ class ManagedNode(LifecycleNode):
         self._inputs: list[Input] = []
         self._sole_outputs: list[SoleOutput] = []
         self._idle: IdleWatch | None = None
+        self._ends_with = ""  # a topic
         self._board = NoticeBoard(self, lambda: self.state, self._stream_notices)
         self._serve_change_state = self._service_change_state.callback
         self._service_change_state.callback = self._change_state_asked
@@ -166,7 +167,7 @@ class ManagedNode(LifecycleNode):
 
     def when_idle(self, after_s: float, finish: Callable[[], None]) -> None:
         """Call when samples have come and then none for a while: what waits for later ones can be given out."""
-        self._idle = IdleWatch(after_s, finish)
+        self._idle = IdleWatch(after_s, finish, self._may_go_on)
         self.every(after_s / 4.0, self._idle.look)
 
     def tell(self, what: str, notices: Callable[[], list[Notice]]) -> None:
@@ -177,6 +178,9 @@ class ManagedNode(LifecycleNode):
         """Let something else work while the node is active."""
         self._parts.append(part)
 
+    def _may_go_on(self) -> bool:
+        return bool(self._ends_with) and self.count_publishers(self._ends_with) > 0
+
     def _stream_notices(self) -> list[Notice]:
         of_inputs = [notice for topic in self._inputs for notice in topic.notices]
         return of_inputs + [notice for topic in self._sole_outputs for notice in topic.notices]
@@ -185,7 +189,7 @@ class ManagedNode(LifecycleNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Read the parameters, make stage and publishers."""
-        answer = self._tried(lambda: self.set_up(prefixed(read_params(self, self.GROUPS))))
+        answer = self._tried(self._configure)
         if answer != DONE:
             self._drop_all()
             return answer
@@ -213,6 +217,11 @@ class ManagedNode(LifecycleNode):
         """Drop everything; the process ends then."""
         self._drop_all()
         return DONE
+
+    def _configure(self) -> None:
+        params = prefixed(read_params(self, self.GROUPS))
+        self._ends_with = params.node.ends_with
+        self.set_up(params)
 
     def _begin_all(self) -> None:
         for part in self._parts:

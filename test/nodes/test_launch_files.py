@@ -7,8 +7,8 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
+from pdr_core.parameter import grouped
 from pdr_core.params import params_from_mapping
-from pdr_nodes.declare import nested
 
 LAUNCH = Path(__file__).resolve().parents[2] / "pdr_bringup_scripts" / "launch"
 
@@ -57,7 +57,7 @@ def launched(monkeypatch):
 def given(node):
     """The parameters that the launch file sets itself; each must be one of ours."""
     mapping = {name: value for part in node.parameters if isinstance(part, dict) for name, value in part.items()}
-    return params_from_mapping(nested(mapping))
+    return params_from_mapping(grouped(mapping))
 
 
 def names(nodes):

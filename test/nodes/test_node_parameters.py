@@ -22,9 +22,15 @@ GROUPS_OF = {
     ModeManagerNode: ("power", "node"),
 }
 REFUSED = {
-    "an unknown name": ({"filter__gates": 1.0}, "filter.gates: unknown parameter; known are samples, .*gate"),
-    "an unknown group": ({"filtre__gate": 1.0}, "filtre: unknown group of parameters; known are .*filter"),
-    "no group": ({"gate": 1.0}, "gate: unknown parameter; parameters are group.name"),
+    "an unknown name": (
+        {"filter__gates": 1.0},
+        r"filter.gates: unknown parameter, did you mean gate\? known are samples, .*gate",
+    ),
+    "an unknown group": (
+        {"filtre__gate": 1.0},
+        r"filtre: unknown group of parameters, did you mean filter\? known are .*filter",
+    ),
+    "no group": ({"gate": 1.0}, "gate = 1.0: parameters are group.name"),
     "out of bounds": ({"filter__gate": 0.5}, r"filter.gate = 0.5: must be float, within 1 .. 1e\+09"),
     "not a number": ({"stance__window_s": ".nan"}, "stance.window_s = '.nan': must be float, within 0 .. 1 s"),
     "a wrong type": ({"node__publish_tf": 1}, "node.publish_tf = 1: must be bool"),

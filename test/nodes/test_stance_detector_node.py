@@ -1,13 +1,16 @@
+import time
+
 import numpy as np
 import pytest
 from sensor_msgs.msg import Imu
 
 from pdr_core.intake import Ingestion
 from pdr_core.params import Params
-from pdr_core.records import joined, length
+from pdr_core.records import joined, length, part
 from pdr_core.stance import StanceDetection
 from pdr_msgs.msg import MargSample, StanceImu
 from pdr_nodes.convert import marg_message, stance_block
+from pdr_nodes.qos import OWN
 from pdr_nodes.stance_detector_node import StanceDetectorNode
 from support.bench import Bench
 from support.walks import imu_messages, magnetic_walk, stamps, still, straight_walk
@@ -70,6 +73,28 @@ def test_a_verdict_follows_from_its_statistic_and_stays_finite(verdicts):
     assert np.isfinite(numbers).all()
     standing = np.array([m.stance for m in verdicts[0]])
     assert (numbers[standing, 0] <= numbers[standing, 1]).all()
+
+
+def test_a_pause_is_no_end_while_the_driver_is_there(trusted):
+    """Else the last verdicts before the pause would be judged by what there was: 231 um in a walk of two feet."""
+    params, half = Params(), part(trusted, 0, length(trusted) // 2)
+    stance = StanceDetection(params.stance, params.place)
+    expected = joined([stance.run(trusted), stance.finish()])
+    with Bench(StanceDetectorNode, node__idle_s=0.2, node__ends_with="imu/data_raw") as bench:
+        heard = bench.hear(StanceImu, "stance")
+        driver = bench.me.create_publisher(Imu, "imu/data_raw", OWN)
+        publisher, messages = bench.publisher(Imu, "imu/data"), imu_messages(trusted)
+        bench.feed(publisher, messages[: length(half)])
+        bench.until(lambda: len(heard) >= length(half) - held_back(half), "the verdicts before the pause")
+        pause = time.monotonic() + 1.0
+        bench.until(lambda: time.monotonic() > pause, "the end of the pause")
+        bench.feed(publisher, messages[length(half) :])
+        bench.until(lambda: len(heard) >= length(trusted) - held_back(trusted), "the verdicts after the pause")
+        bench.me.destroy_publisher(driver)
+        bench.until(lambda: len(heard) >= length(trusted), "the verdict on every sample")
+    block = joined([stance_block(m) for m in heard])
+    for name in ("stance", "statistic", "threshold", "zero_velocity_sd_mps"):
+        np.testing.assert_array_equal(getattr(block, name), getattr(expected, name), err_msg=name)
 
 
 def test_with_a_magnetometer_each_verdict_has_the_field_of_its_sample():

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from nav_msgs.msg import Odometry
 from nav_msgs.msg import Path as Way
+from rclpy.duration import Duration
 from sensor_msgs.msg import Imu
 from tf2_msgs.msg import TFMessage
 
@@ -73,6 +74,9 @@ class People:
             bench.until(lambda: bench.me.count_publishers("/bob/path"), "the nodes of a person")
             for (person, foot), publisher in inputs.items():
                 bench.feed(publisher, imu_messages(walk_of(person)[foot]))
+            for publisher in inputs.values():  # as a driver does that has told all
+                publisher.wait_for_all_acked(Duration(seconds=10))
+                bench.me.destroy_publisher(publisher)
             wanted = {f"/{person}{foot}": length(nav) for person in WALKS for foot, nav in expected[person].items()}
             bench.until(lambda: not self._missing(wanted), "all estimates", WITHIN_S)
             self.publishers = {a: bench.me.count_publishers(f"{a}/odom") for a in addresses}

@@ -59,16 +59,20 @@ def test_what_comes_is_passed_on_until_it_is_closed(bench):
 @pytest.mark.parametrize("quiet_s", [6.5, 30.5])
 def test_nodes_that_have_said_all_are_told_from_nodes_that_say_nothing(quiet_s, tmp_path):
     """Played at a fifth of its speed a pair of feet is quiet for longer than others ever are."""
-    watch, chains = SimpleNamespace(quiet_s=0.0), SimpleNamespace(drivers_are_done=True, check=lambda: None)
-
-    def listen(seconds):
-        watch.quiet_s += seconds
-
-    listen_until_quiet(SimpleNamespace(listen=listen), chains, watch, quiet_s, tmp_path)
-    assert watch.quiet_s == pytest.approx(quiet_s, abs=0.11)
+    silence, chains = Silence(), SimpleNamespace(drivers_are_done=True, check=lambda: None)
+    listen_until_quiet(silence, chains, silence, quiet_s, tmp_path)
+    assert silence.quiet_s == pytest.approx(quiet_s, abs=0.11)
     chains.drivers_are_done = False
     with pytest.raises(Problem, match="nothing has come from the nodes"):
-        listen_until_quiet(SimpleNamespace(listen=listen), chains, watch, quiet_s, tmp_path)
+        listen_until_quiet(silence, chains, silence, quiet_s, tmp_path)
+
+
+def test_silence_counts_from_the_end_of_the_drivers(tmp_path):
+    """A pause before it is none that a node takes for the end: what waits is given out only after it."""
+    silence, chains = Silence(), SimpleNamespace(drivers_are_done=False, check=lambda: None)
+    silence.at(25.0, lambda: setattr(chains, "drivers_are_done", True))
+    listen_until_quiet(silence, chains, silence, 6.5, tmp_path)
+    assert silence.now_s == pytest.approx(31.5, abs=0.21)
 
 
 def test_nodes_that_are_still_starting_are_not_silent(monkeypatch):
@@ -82,3 +86,22 @@ def test_nodes_that_are_still_starting_are_not_silent(monkeypatch):
     assert watch.quiet_s == 0.0
     now_s[0] += 5.0
     assert watch.quiet_s == 5.0
+
+
+class Silence:
+    """Hears nothing, and knows for how long."""
+
+    def __init__(self):
+        self.now_s, self.quiet_s, self._due = 0.0, 0.0, []
+
+    def at(self, when_s, call):
+        self._due.append((when_s, call))
+
+    def listen(self, seconds):
+        self.now_s, self.quiet_s = self.now_s + seconds, self.quiet_s + seconds
+        for when_s, call in self._due:
+            if self.now_s >= when_s:
+                call()
+
+    def begin_anew(self):
+        self.quiet_s = 0.0

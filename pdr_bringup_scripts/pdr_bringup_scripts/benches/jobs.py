@@ -70,12 +70,12 @@ def run(asked: Mapping[str, bool], job: Job) -> None:
 
 def chosen(names: Sequence[str], job: Job) -> Bench:
     """Return the bench that is asked for; Problem if options do not go together."""
-    own = listed([name for name in BENCHES if name])
     if len(names) > 1:
+        own = listed([name for name in BENCHES if name])
         raise Problem(f"{own} are benches of their own: choose one")
     bench = BENCHES["".join(names)]
     if job.length_m and not bench.length_m:
-        raise Problem(f"the walks of {own} have lengths of their own: leave out --length")
+        raise Problem(f"the walks of {names[0]} have lengths of their own: leave out --length")
     if job.seeds and not bench.seeds:
         raise Problem(f"the walks of {names[0]} are those of the paper: leave out --seeds")
     if job.out and not bench.has_page:

@@ -27,8 +27,8 @@ def bench(
 ) -> None:
     """Measure mechanisation, Gui's Table 1 and the filter's consistency on simulated walks, or something else instead.
 
-    Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`, or `pdr bench --stress`,
-    or one of `pdr bench --qiu`, `--gui`, `--dual`, `--zhou`, `--energy` and `--cheng`, with `--out folder`
+    Example: `pdr bench`, or quickly `pdr bench --seeds 10 --length 24`, or `pdr bench --stress`
+    or `--external`, or with `--out folder` one of `--qiu`, `--gui`, `--dual`, `--zhou`, `--energy` and `--cheng`
     """
     asked = {"--stress": stress, "--qiu": qiu, "--gui": gui, "--dual": dual, "--zhou": zhou, "--energy": energy}
     run(asked | {"--cheng": cheng, "--external": external}, Job(seeds, length, out, json, recordings))

@@ -7,7 +7,7 @@ import typer
 
 def convert(
     recording: Path = typer.Argument(help="rosbag2 directory, .mcap, .db3, ROS 1 .bag, .csv or .mat"),
-    output: Path = typer.Argument(help="NAME.csv, NAME.mcap, or any other name for a rosbag2 directory (MCAP)"),
+    output: Path = typer.Argument(help="NAME.csv, NAME.mcap, or a name without an ending for a rosbag2 directory"),
     columns: Path = typer.Option(None, help="column map of a text recording, see the guide on recordings"),
     sensor: str = typer.Option(None, help="which sensor of the recording; default: all of them"),
     rate: float = typer.Option(None, min=0.1, help="lower the rate [Hz], filtered as a sensor does it"),

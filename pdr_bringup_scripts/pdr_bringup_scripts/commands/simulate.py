@@ -5,8 +5,8 @@ from pathlib import Path
 import typer
 
 WALKS = (
-    "rectangle, straight, still; smooth also curve, corridor, stairs, run, mixed, qiu_rectangle, track, stair_climb,"
-    " octagon, octagon_run, transitions, campus"
+    "rectangle, straight, still; gui and smooth also campus; smooth also curve, corridor, stairs, run, mixed,"
+    " qiu_rectangle, track, stair_climb, octagon, octagon_run, transitions"
 )
 SENSORS = "how good the sensor is: ideal, consumer, g_sensitive, gui_table_1, gui_table_1_deg, qiu_table_1 or icm_20602"
 

@@ -36,7 +36,8 @@ FIELD_IDLE_S = 4.0  # on a busy machine one of two topics may lag behind the oth
 FEET_IDLE_S = 2.0  # for the same reason, of two feet
 IDLE_MAX_S = 10.0
 SHOW_EVERY = 20  # odometry messages
-SAMPLES = "/imu/data_raw"  # how their topics end in the recording
+DRIVEN = "imu/data_raw"  # where the driver of each sensor publishes
+SAMPLES = f"/{DRIVEN}"  # how these topics end in the recording
 
 
 def live_run(
@@ -90,7 +91,7 @@ def for_one_run(params: Params) -> Params:
     least_s = max(FIELD_IDLE_S * params.node.magnetometer, FEET_IDLE_S * params.filter.heading_feedback)
     idle_s = min(max(params.node.idle_s, least_s) * slowness, IDLE_MAX_S)
     node = replace(params.node, input_reliable=True, autostart=True, idle_s=idle_s, answer_timeout_s=0.0)
-    node = replace(node, field_wait_s=FIELD_WAIT_S)
+    node = replace(node, field_wait_s=FIELD_WAIT_S, ends_with=DRIVEN)  # a driver that is held up has not ended
     return replace(params, node=node, driver=replace(params.driver, subscribers=LISTENERS))
 
 
@@ -109,20 +110,23 @@ def record(cast: Cast, out: Path, namespace: str, terminal: Terminal) -> None:
             homes = {foot: below(namespace, foot) for foot in both}
             if waits := watch.owed.by:  # for the other foot, which has ended before it
                 chains.end([home for foot, home in homes.items() if foot not in waits])
-                watch.begin_anew()
                 listen_until_quiet(ears, chains, watch, quiet_for_good_s(cast), out)
             chains.end(homes.values())
             listen_for(ears, AFTERWARDS_S)
 
 
 def listen_until_quiet(ears: Ears, chains: Chains, watch: "Watch", quiet_s: float, out: Path) -> None:
-    """Hear what the nodes say, until the drivers are done and nothing has come for a while."""
+    """Hear what the nodes say, until the drivers are done and nothing has come for a while since."""
     too_long_s = max(NOTHING_S, 2.0 * quiet_s)  # two feet that are played slowly are quiet for as long when all is well
-    while not (chains.drivers_are_done and watch.quiet_s > quiet_s):
+    done = False
+    while not (done and watch.quiet_s > quiet_s):
         ears.listen(0.1)
         chains.check()
         if watch.quiet_s > too_long_s:
             raise Problem(f"nothing has come from the nodes for {too_long_s:.0f} s; see {out / 'nodes'}")
+        if chains.drivers_are_done and not done:
+            done = True
+            watch.begin_anew()  # only now does a node take a pause for the end
 
 
 def listen_for(ears: Ears, seconds: float) -> None:

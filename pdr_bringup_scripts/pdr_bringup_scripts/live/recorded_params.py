@@ -7,8 +7,8 @@ from pathlib import Path
 import yaml
 
 from pdr_bringup_scripts.problems import Problem
+from pdr_core.parameter import Groups
 from pdr_core.params import Params, params_as_mapping, params_from_mapping
-from pdr_core.params_file import Mapping as Groups
 from pdr_core.params_file import load_params, ros_parameters
 from pdr_core.recording import Sensor
 from pdr_core.recording.mcap_salvage import mcap_attachments

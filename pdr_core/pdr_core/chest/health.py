@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pdr_core.chest.output import tilt_sd_rad
 from pdr_core.chest.settings import Settings
 from pdr_core.chest.state import UNKNOWN_M, ChestState
 from pdr_core.records import FieldUse, FilterHealth, FilterMode, Level, Notice
@@ -41,7 +42,7 @@ def judged(state: ChestState, s: Settings) -> FilterHealth:
         position_sd_m=float(state.position_sd_m),
         height_sd_m=float(state.position_sd_m),
         velocity_sd_mps=float(state.velocity_sd_mps),
-        tilt_sd_rad=s.tilt_sd_rad if state.aligned else np.pi,
+        tilt_sd_rad=tilt_sd_rad(s, state),
         yaw_sd_rad=float(state.yaw_sd_rad),
         gyro_bias_radps=state.gyro_bias_radps.copy(),
         gyro_bias_sd_radps=np.full(3, float(state.bias_variance) ** 0.5),

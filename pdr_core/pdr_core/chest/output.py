@@ -21,7 +21,7 @@ def write(out: NavBlock, i: int, s: Settings, state: ChestState) -> None:
     """Write the estimate as sample i of the output."""
     R_chest_from_world = transposed(rows(state.quat_xyzw))
     velocity = rotated(R_chest_from_world, state.velocity_mps)
-    tilt_sd_rad = s.tilt_sd_rad if state.aligned else np.pi
+    tilt_rad2 = tilt_sd_rad(s, state) ** 2
     out.stamp_ns[i] = state.last_ns
     for j in range(4):
         out.quat_xyzw[i, j] = state.quat_xyzw[j]
@@ -30,6 +30,12 @@ def write(out: NavBlock, i: int, s: Settings, state: ChestState) -> None:
         out.velocity_mps[i, j] = velocity[j]
         out.rate_radps[i, j] = state.last_rate_radps[j] - state.gyro_bias_radps[j]
         out.pose_covariance[i, j, j] = state.position_sd_m**2
-        out.pose_covariance[i, 3 + j, 3 + j] = tilt_sd_rad**2 if j < 2 else state.yaw_sd_rad**2
+        out.pose_covariance[i, 3 + j, 3 + j] = tilt_rad2 if j < 2 else state.yaw_sd_rad**2
         out.twist_covariance[i, j, j] = state.velocity_sd_mps**2
         out.twist_covariance[i, 3 + j, 3 + j] = state.bias_variance
+
+
+@compiled
+def tilt_sd_rad(s: Settings, state: ChestState) -> float:
+    """Return the standard deviation of roll and of pitch: before the first rest nothing is known of them."""
+    return s.tilt_sd_rad if state.aligned else np.pi

@@ -43,8 +43,8 @@ def gui_course(name: str, length_m: float) -> Course:
     elif name == "campus":
         phases = [phase for pace in campus(length_m, STEP_LENGTH_M) for phase in step(pace.length_m, pace.turn_rad)]
     else:
-        text = f"simulation.walk = '{name}': Gui's motion knows only level ground; set simulation.motion to smooth"
-        raise ParameterError(text)
+        known = "Gui's foot walks only rectangle, straight, still and campus"
+        raise ParameterError(f"simulation.walk = '{name}': {known}; set simulation.motion to smooth")
     return GuiCourse([Phase(REST_S), *phases, Phase(REST_S)])
 
 

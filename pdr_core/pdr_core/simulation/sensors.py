@@ -71,9 +71,9 @@ SENSOR_MODELS = {
     "ideal": SensorModel(),
     "consumer": CONSUMER,
     # 0.1 deg/s/g, as the data sheet of the MPU-6000 has it, in the axis that the heading hangs on: walking turns the
-    # track by 0.03 deg/s, which no rest shows. Where x and y answer too, they turn it by as much, to either side.
+    # track by 0.04 deg/s, which no rest shows. Where x and y answer too, they turn it by as much, to either side.
     "g_sensitive": replace(CONSUMER, gyro_g_sensitivity=(0.0, 0.0, float(np.radians(0.1)) / STANDARD_GRAVITY_MPS2)),
-    # As printed. 0.1 rad/sqrt(s) is about 300 times what the data sheet of the sensor says; no foot filter survives it.
+    # As printed. 0.1 rad/sqrt(s) is about 570 times what the data sheet of the sensor says; no foot filter survives it.
     "gui_table_1": GUI_TABLE_1,
     # 0.1 deg/sqrt(s), which may be meant: ten times the data sheet
     "gui_table_1_deg": replace(GUI_TABLE_1, gyro_noise_density=float(np.radians(0.1))),

@@ -1,4 +1,5 @@
 import dataclasses
+import re
 
 import pytest
 import yaml
@@ -21,8 +22,9 @@ def written(tmp_path, text):
 @pytest.mark.parametrize(
     ("mapping", "text"),
     [
-        ({"filtre": {}}, "filtre: unknown group"),
-        ({"filter": {"gaet": 1.0}}, "filter.gaet: unknown parameter; known are samples"),
+        ({"filtre": {}}, "filtre: unknown group of parameters, did you mean filter? known are intake"),
+        ({"filter": {"gaet": 1.0}}, "filter.gaet: unknown parameter, did you mean gate? known are samples"),
+        ({"filter": {"zzz": 1.0}}, "filter.zzz: unknown parameter; known are samples"),
         ({"filter": 3}, "filter = 3: must be a mapping"),
         ({"filter": {"gate": 0.5}}, "filter.gate = 0.5: must be float, within 1 .. 1e+09"),
         ({"filter": {"gate": float("nan")}}, "filter.gate = nan"),
@@ -80,6 +82,20 @@ def test_a_file_changes_what_it_names(tmp_path):
     assert params == changed(Params(), "filter", gate=25.0)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        HEAD + "    use_sim_time: true\n    filter: {gate: 25.0}\n",
+        HEAD + "    filter.gate: 25.0\n    qos_overrides: {/parameter_events: {publisher: {depth: 1000}}}\n",
+        "/left/zupt_ekf:\n  ros__parameters:\n    filter: {gate: 25.0}\n    start_type_description_service: true\n",
+        HEAD + "    filter: {gate: 25.0}\ncontroller_server: {ros__parameters: {rate: 20.0}}\n",
+    ],
+    ids=["with ROS's own", "dotted", "as dumped", "beside other nodes"],
+)
+def test_a_file_that_nodes_take_is_taken_offline(tmp_path, text):
+    assert load_params(written(tmp_path, text)) == changed(Params(), "filter", gate=25.0)
+
+
 def test_values_survive_the_way_through_a_mapping():
     other = changed(changed(Params(), "filter", gate=25.0), "node", foot_frame="left")
     assert params_from_mapping(params_as_mapping(other)) == other
@@ -92,7 +108,8 @@ def test_values_survive_the_way_through_a_mapping():
         ("filter:\n  gate: 20.0\n", "must hold groups of parameters below '/\\*\\*: ros__parameters:'"),
         ("/**: [1]\n", "must hold groups of parameters below '/\\*\\*: ros__parameters:'"),
         ("/**: {ros__parameters: {filter: {gate: [}}}", "cannot be read as YAML"),
-        (HEAD + "    filter:\n", "filter = None: must be a mapping"),
+        (HEAD + "    filter:\n", "filter = None: parameters are group.name"),
+        ("one: {ros__parameters: {}}\ntwo: {ros__parameters: {}}\n", "must hold groups"),
         (HEAD + "    filter:\n      gate: much\n", "filter.gate = 'much'"),
     ],
 )
@@ -123,3 +140,9 @@ def test_a_missing_file_and_a_file_of_bytes_are_told_in_one_sentence(tmp_path):
 def test_the_documentation_names_every_parameter():
     text = markdown()
     assert all(f"| `{field.name}` | `{field.default}` |" in text for _, field in FIELDS)
+
+
+def test_no_cell_of_the_documentation_breaks_its_row():
+    rows = [line for line in markdown().splitlines() if line.startswith("| `")]
+    assert len(rows) == len(list(FIELDS))
+    assert [row for row in rows if len(re.findall(r"(?<!\\)\|", row)) != 7] == []

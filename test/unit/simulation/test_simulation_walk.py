@@ -27,7 +27,7 @@ def test_every_walk_begins_and_ends_at_rest(motion, walk):
 
 @pytest.mark.parametrize("walk", [w for w in WALKS if w not in (*LEVEL, "campus")])
 def test_gui_has_no_other_walks(walk):
-    with pytest.raises(ParameterError, match=r"set simulation\.motion to smooth"):
+    with pytest.raises(ParameterError, match=r"only rectangle, .* and campus; set simulation\.motion to smooth"):
         walk_duration_s(SimulationParams(motion="gui", walk=walk))
 
 
