@@ -7,6 +7,7 @@ import pytest
 from hypothesis import settings
 
 from pdr_bringup_scripts.live.chain import QUICK_DISCOVERY
+from pdr_core.warmup import warm_up
 from support.domain import own_domain
 from support.participants import participants
 
@@ -35,6 +36,7 @@ def ros_environment(tmp_path_factory):
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         patch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(QUICK_DISCOVERY))
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros_log")))
+        warm_up(both=True, adaptive=True)  # else nodes that a test starts compile, each for itself, within its deadline
         yield domain
 
 

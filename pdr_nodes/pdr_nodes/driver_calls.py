@@ -1,5 +1,6 @@
 """Asks the driver to switch its gyro and to change its rate, and waits for nothing."""
 
+import time
 from collections import deque
 from collections.abc import Callable
 from functools import partial
@@ -15,6 +16,8 @@ from pdr_nodes.managed import ManagedNode
 from pdr_nodes.patience import Patience
 
 LOOK_S = 0.05
+AGAIN_S = 0.25  # a driver that has not found us within 0.1 s loses its answer in its middleware (rmw_fastrtps 8.4)
+TIMES = 3  # that a driver is called which has never answered; one that is only slow must not be swamped
 UNANSWERED = 16  # calls that a late answer is still taken of
 NOBODY = "nobody offers {}: does the driver run, and is it in this namespace?"
 
@@ -37,7 +40,10 @@ class DriverCalls:
         self._answered, self._rated = answered, rated
         self._open: ModeCommand | None = None  # not answered yet
         self._last: ModeCommand | None = None  # asked for
-        self._called = False  # it has been sent
+        self._times = 0  # that it has been called
+        self._called_s = 0.0
+        self._answers = False  # the driver has answered, since it is there
+        self._heard = 0  # the newest command that was answered
         self._calls: deque[tuple[Client, Future]] = deque()
         self._patience = Patience(timeout_s, lambda: self._open and self._open.number, self._give_up)
         node.every(LOOK_S, self._look)
@@ -45,7 +51,7 @@ class DriverCalls:
 
     def begin(self) -> None:
         """Ask from now on."""
-        self._open, self._last = None, None
+        self._open, self._last, self._answers = None, None, False
 
     def end(self) -> None:
         """Leave no gyro off, or to its sensor, that nobody looks after."""
@@ -65,14 +71,21 @@ class DriverCalls:
 
     def ask(self, command: ModeCommand) -> None:
         """Ask for what a command wants; what was asked for before does not matter any more."""
-        self._open, self._last, self._called = command, command, False
+        self._open, self._last, self._times = command, command, 0
         self._look()
 
     def _look(self) -> None:
-        if self._open and not self._called and self.offered:
-            self._called = True
+        self._answers = self._answers and self.offered
+        if self._open and self._is_due and self.offered:
+            self._times, self._called_s = self._times + 1, time.monotonic()
             self._call(self._open)
         self._patience.look()
+
+    @property
+    def _is_due(self) -> bool:
+        """A first call is, and another one where the answer to it may have been lost."""
+        overdue = not self._answers and time.monotonic() - self._called_s > AGAIN_S
+        return self._times == 0 or (overdue and self._times < TIMES)
 
     def _call(self, command: ModeCommand) -> None:
         """Ask for power and rate from the next sample on; nobody can ask for the past."""
@@ -92,6 +105,10 @@ class DriverCalls:
             of.remove_pending_request(oldest)
 
     def _gyro_answered(self, command: ModeCommand, future: Future) -> None:
+        self._answers = True
+        if command.number <= self._heard:  # called twice, or nothing to go by any more
+            return
+        self._heard = command.number
         if self._open == command:
             self._open = None
         self._answered(command, gyro_answer(command, future.result()))
@@ -103,6 +120,6 @@ class DriverCalls:
         """Nobody has answered."""
         command, self._open = self._open, None
         if command:
-            text = "" if self._called else self.nobody
+            text = "" if self._times else self.nobody
             none = DriverAnswer(command.number, command.stamp_ns, Outcome.TIMED_OUT, NO_STAMP, 0.0, text)
             self._answered(command, none)

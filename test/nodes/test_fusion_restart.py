@@ -16,7 +16,8 @@ from support.feet import FEET, both_walk
 from support.processes import node_process
 from support.walks import judged, stamps, stance_messages
 
-ASKING = {"filter__heading_feedback": True, "node__idle_s": 0.5}
+PATIENT = {"node__idle_s": 0.5, "node__answer_timeout_s": 4.0}  # a busy machine is no foot that has ended
+ASKING = PATIENT | {"filter__heading_feedback": True}
 WALK = {foot: judged(samples) for foot, samples in both_walk(9.6).items()}
 HALF = 900  # samples: in the middle of the walk
 
@@ -43,7 +44,7 @@ class Feet:
     def start(self, node, foot=""):
         self._count += 1
         space, log = f"{self._space}/{foot}".rstrip("/"), self._logs / f"{self._count}.log"
-        params = ASKING if foot else {"node__idle_s": 0.5}
+        params = ASKING if foot else PATIENT
         return self._stack.enter_context(node_process(node, space, log, **params))
 
     def walk(self, foot, start, stop):

@@ -265,19 +265,19 @@ def test_other_than_one_or_two_names_are_refused(feet):
         pass
 
 
-def test_an_answer_waits_for_the_foot_that_asked(person):
+def test_an_answer_waits_for_the_foot_that_asked(hurried):
     """The filter of the foot may be found later than what it says."""
-    left = person.feet["left"]
-    person.bench.me.destroy_subscription(left.hears)
-    publisher = person.bench.node._feet["left"]._answers._publisher
-    person.bench.until(lambda: not publisher.get_subscription_count(), "nobody who listens")
+    left = hurried.feet["left"]
+    hurried.bench.me.destroy_subscription(left.hears)
+    publisher = hurried.bench.node._feet["left"]._answers._publisher
+    hurried.bench.until(lambda: not publisher.get_subscription_count(), "nobody who listens")
     for foot in FEET:
-        person.feet[foot].walk(WALK[foot])
-    person.bench.until(lambda: person.feet["right"].answers, "an answer to the right foot")
+        hurried.feet[foot].walk(WALK[foot])
+    hurried.bench.until(lambda: hurried.feet["right"].answers, "an answer to the right foot")
     assert left.steps
     assert not left.answers
     left.listen()
-    person.until_over()
+    hurried.until_over()
 
 
 def test_the_person_is_placed_and_the_feet_stay_in_their_worlds(person):

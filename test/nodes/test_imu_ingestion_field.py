@@ -3,6 +3,7 @@
 import math
 from contextlib import contextmanager
 from itertools import count
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from pdr_core.intake import Ingestion
 from pdr_core.params import Params
 from pdr_core.records import Level, joined, length
 from pdr_msgs.msg import MargSample
-from pdr_nodes import catch_up
+from pdr_nodes import catch_up, idle
 from pdr_nodes.convert import field_block, marg_block, time_message
 from pdr_nodes.imu_ingestion_node import ImuIngestionNode
 from pdr_nodes.notice_board import notices_from
@@ -175,14 +176,16 @@ def test_a_slower_magnetometer_holds_nothing_up():
     np.testing.assert_array_equal(block.field_sd_tesla >= 0.0, slow[: length(block)])
 
 
-def test_a_magnetometer_that_goes_on_alone_does_not_keep_the_last_samples_waiting():
-    later = (time_message(int(WALK.stamp_ns[-1]) + i * 10_000_000) for i in count(1))
-    with fed(node__idle_s=2.0) as node:
+def test_a_magnetometer_that_goes_on_alone_does_not_keep_the_last_samples_waiting(monkeypatch):
+    now_s, later = [0.0], (time_message(int(WALK.stamp_ns[-1]) + i * 10_000_000) for i in count(1))
+    monkeypatch.setattr(idle, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
+    with fed() as node:
         node.feed(at(SAMPLES), at(FIELDS[:-1]))
         node.heard(len(SAMPLES) - 1)
         for _ in range(5):  # what is under way comes: the last sample, which waits
             node.bench.spin()
         assert len(node.margs) == len(SAMPLES) - 1
+        now_s[0] += 1.0
 
         def all_came():
             node.mag.publish(MagneticField(header=Header(stamp=next(later))))

@@ -34,20 +34,24 @@ def faulty(said):
 
 
 def asked(log):
-    """What the driver was asked so far."""
-    return [word for word in log.read_text().split() if word in ("on", "off", "swings")]
+    """What the driver was asked so far; on a busy machine its first answer may be lost, and it is asked once more."""
+    words = [word for word in log.read_text().split() if word in ("on", "off", "swings")]
+    again = next((i for i, word in enumerate(words) if word != "on"), len(words)) - 1
+    return words[max(again, 0) :]
 
 
 def test_an_obedient_driver_is_asked_on_first_and_off_after_l0(patient, tmp_path):
     rig = patient
     with fake_driver(rig, "obeys", tmp_path / "driver.log") as log:
+        rig.until(lambda: rig.said and "no_driver" not in rig.kinds(-1), "that the manager knows of the driver")
+        first = len(rig.said)  # a driver that has not started yet is named, and rightly
         rig.walk_until(lambda said: reckons(said) and said.sample_rate == 50.0, "dead reckoning")
         assert asked(log) == ["on", "off"]
         assert (rig.last.gyro_requested, rig.last.gyro_powered) == (False, False)
         rig.walk(10.0)
         assert rig.last.gyro_on < rig.last.duration
         assert 0.0 < rig.last.sensor_charge < rig.last.sensor_charge_always_on
-        assert rig.kinds() <= {"no_input_walk"}
+        assert rig.kinds(first) <= {"no_input_walk"}
 
 
 def test_without_a_driver_the_gyro_is_wanted_on_and_the_fault_is_named(rig):
@@ -55,7 +59,7 @@ def test_without_a_driver_the_gyro_is_wanted_on_and_the_fault_is_named(rig):
     assert rig.last.gyro_requested
     rig.walk(10.0)
     assert faulty(rig.last)
-    assert {"driver_timed_out", "no_driver"} <= rig.kinds()
+    rig.until(lambda: {"driver_timed_out", "no_driver"} <= rig.kinds(), "both notices")
 
 
 def test_a_driver_that_refuses_keeps_its_gyro_on(patient, tmp_path):
@@ -66,9 +70,9 @@ def test_a_driver_that_refuses_keeps_its_gyro_on(patient, tmp_path):
         refused = next(said for said in rig.modes if said.answer == Says.ANSWER_REFUSED)
         assert (refused.gyro_requested, refused.answer_text) == (False, "not today")
         assert "cannot be switched off: not today" in fault.reason
-        rig.walk(5.0)
-        assert (rig.last.mode, rig.last.gyro_powered, asked(log)[-1]) == (Says.MODE_INITIALISING, True, "on")
-        assert "driver_refused" in rig.kinds()
+        rig.walk_until(lambda said: said.mode == Says.MODE_INITIALISING and said.gyro_powered, "the way back")
+        assert asked(log)[-1] == "on"
+        rig.until(lambda: "driver_refused" in rig.kinds(), "a notice")
 
 
 def test_a_driver_that_sleeps_holds_nobody_up(rig, tmp_path):
@@ -93,7 +97,7 @@ def test_a_driver_that_dies_in_mid_call_is_named_and_taken_back(patient, tmp_pat
         rig.walk_until(lambda said: said.mode == Says.MODE_INITIALISING, "the way back")
         assert asked(log)[0] == "on"
         rig.walk_until(reckons, "dead reckoning once more")
-    assert "driver_timed_out" in rig.kinds()
+    rig.until(lambda: "driver_timed_out" in rig.kinds(), "a notice")
 
 
 def test_a_driver_that_was_started_again_is_known_by_its_gyro_and_by_its_clock(patient, tmp_path):
@@ -104,9 +108,10 @@ def test_a_driver_that_was_started_again_is_known_by_its_gyro_and_by_its_clock(p
         before = len(rig.modes)
         rig.walk_until(lambda said: said.gyro_powered, "the gyro on")
         assert any("started again" in said.reason for said in rig.modes[before:])
+        rig.walk_until(lambda _: len(asked(log)) > 2, "that the driver hears of it")
         assert asked(log)[2] == "on"
         rig.walk_until(reckons, "dead reckoning with the new clock")
-        assert "driver_died" in rig.kinds()
+        rig.until(lambda: "driver_died" in rig.kinds(), "a notice")
 
 
 def test_where_nothing_is_heard_any_more_the_gyro_is_wanted_on_by_the_wall_clock(patient, tmp_path):
@@ -156,8 +161,7 @@ def test_a_sensor_that_cannot_switch_its_gyro_keeps_it_on(tmp_path):
     with Rig("modes_cannot", PATIENCE_S, "swing") as rig, fake_driver(rig, "cannot", tmp_path / "driver.log") as log:
         fault = rig.walk_until(faulty, "a fault")
         assert "the sensor cannot switch the gyro by itself: not today; it stays on" in fault.reason
-        rig.walk(2.0)
-        assert (rig.last.mode, rig.last.gyro_powered) == (Says.MODE_INITIALISING, True)
+        rig.walk_until(lambda said: said.mode == Says.MODE_INITIALISING and said.gyro_powered, "the way back")
         assert (asked(log)[:3], asked(log).count("swings")) == (["on", "swings", "on"], 1)
         rig.until(lambda: "driver_refused" in rig.kinds(), "a notice")
 
@@ -165,7 +169,7 @@ def test_a_sensor_that_cannot_switch_its_gyro_keeps_it_on(tmp_path):
 def test_a_call_that_is_open_when_the_samples_end_is_given_up_by_the_wall_clock():
     with Rig("modes_open", answer_timeout_s=0.5) as rig:
         rig.walk(0.2)
-        assert rig.last.answer == Says.ANSWER_PENDING
-        rig.until(lambda: faulty(rig.last), "a fault without a sample")
+        rig.until(lambda: rig.modes and faulty(rig.last), "a fault without a sample")
+        assert Says.ANSWER_PENDING in [said.answer for said in rig.modes]
         (given_up,) = [said for said in rig.modes if said.answer == Says.ANSWER_TIMED_OUT][:1]
     assert "nobody offers set_gyro_power" in given_up.answer_text

@@ -74,9 +74,9 @@ class Rig(Bench):
             self._step()
         raise AssertionError(f"walked {within_s:.0f} s without {what}; now {self.modes and self.last}")
 
-    def kinds(self) -> set[str]:
-        """Return what the diagnostics have named of the driver so far."""
-        statuses = [s for array in self.said for s in array.status if s.name.endswith("mode_manager: driver")]
+    def kinds(self, first: int = 0) -> set[str]:
+        """Return what the diagnostics have named of the driver, from one of them on."""
+        statuses = [s for array in self.said[first:] for s in array.status if s.name.endswith("mode_manager: driver")]
         return {notice.kind for status in statuses for notice in notices_from(status.values)}
 
     def _step(self) -> None:

@@ -6,7 +6,8 @@ import pytest
 import rclpy
 from sensor_msgs.msg import Imu, MagneticField
 
-from pdr_bringup_scripts.live.live_run import listen_until_quiet
+from pdr_bringup_scripts.live import live_run
+from pdr_bringup_scripts.live.live_run import START_S, Watch, listen_until_quiet
 from pdr_bringup_scripts.live.relay import DriverTopics, Relay
 from pdr_bringup_scripts.problems import Problem
 from support.bench import Bench
@@ -72,6 +73,19 @@ def test_silence_counts_from_the_end_of_the_drivers(tmp_path):
     silence.at(25.0, lambda: setattr(chains, "drivers_are_done", True))
     listen_until_quiet(silence, chains, silence, 6.5, tmp_path)
     assert silence.now_s == pytest.approx(31.5, abs=0.21)
+
+
+def test_nodes_that_are_still_starting_are_not_silent(monkeypatch):
+    now_s = [100.0]
+    clock = SimpleNamespace(monotonic=lambda: now_s[0], time_ns=lambda: 0)
+    monkeypatch.setattr(live_run, "time", clock)
+    watch = Watch(lambda *_: None, lambda _: None, "")
+    now_s[0] += START_S + 5.0
+    assert watch.quiet_s == 5.0
+    watch.take("odom", "nav_msgs/msg/Odometry", b"")
+    assert watch.quiet_s == 0.0
+    now_s[0] += 5.0
+    assert watch.quiet_s == 5.0
 
 
 class Silence:

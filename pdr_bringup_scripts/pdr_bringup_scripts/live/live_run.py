@@ -30,6 +30,7 @@ AFTERWARDS_S = 1.5  # for the last words of nodes that were asked to end
 IDLE_TIMES = 3.0  # of `node.idle_s`: after twice that the last node gives out what waits, once it has looked twice
 MARGIN_S = 0.5
 NOTHING_S = 30.0
+START_S = 60.0  # of the nodes, before their silence counts: two feet took 16 s where ten programs wanted two cores
 FIELD_WAIT_S = 10.0  # the longest
 FIELD_IDLE_S = 4.0  # on a busy machine one of two topics may lag behind the other by more than the usual second
 FEET_IDLE_S = 2.0  # for the same reason, of two feet
@@ -156,13 +157,13 @@ class Watch:
         self._show = show
         self._of = of
         self._first_ns: int | None = None
-        self._last_s = time.monotonic()
+        self._last_s = time.monotonic() + START_S
         self._odometry = 0
         self._steps = 0
 
     @property
     def quiet_s(self) -> float:
-        """How long ago [s] the last message came."""
+        """How long ago [s] the last message came; before the first one, for how long the nodes should have spoken."""
         return time.monotonic() - self._last_s
 
     def begin_anew(self) -> None:
