@@ -13,7 +13,7 @@ from support.processes import END_S, start
 
 ANSWER_S = 300.0  # nodes may still be starting, and wait for each other
 HEARD_S = 0.5  # what was published last is on its way
-PATIENT = "/**: {ros__parameters: {node: {answer_timeout_s: 0.0, field_wait_s: 10.0}}}"
+PATIENT = "/**: {ros__parameters: {node: {answer_timeout_s: 0.0, field_wait_s: 10.0, idle_s: 3.0}}}"
 
 
 def live_until_done(folder: Path, drivers: Sequence[tuple[object, ...]], *arguments: object) -> tuple[int, str, str]:
@@ -36,7 +36,7 @@ def live_until_done(folder: Path, drivers: Sequence[tuple[object, ...]], *argume
 
 
 def patience(folder: Path) -> tuple[str, Path]:
-    """Return arguments by which a foot, or its field, that a busy machine holds up is waited for."""
+    """Return arguments by which a foot, its field or its driver that a busy machine holds up is waited for."""
     (folder / "patient.yaml").write_text(PATIENT)
     return "--params", folder / "patient.yaml"
 
