@@ -93,8 +93,8 @@ def one_switched_foot(params: Params) -> Cast:
     """Return the nodes of a foot alone whose gyro is switched.
 
     The time within which the driver must answer is one by the wall clock, however fast the walk is played. On a busy
-    machine the driver waits for the others: what it is asked then holds as soon as elsewhere. It is ours and does not
-    go: a longer silence is that of the machine.
+    machine the driver waits for the others: what it is asked then holds as soon as elsewhere; and a silence that is
+    shorter than `SILENT_S` is that of the machine.
     """
     speed = max(1.0, params.driver.rate_factor)
     timeout_s = min(params.power.answer_timeout_s * speed, LONGEST_ANSWER_S)
