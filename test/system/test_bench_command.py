@@ -47,8 +47,9 @@ def test_the_help_says_how_many_walks_there_are_and_which_have_a_page():
 
 
 def test_the_length_of_a_stress_walk_cannot_be_chosen():
-    check_refused(pdr("bench", "--stress", "--length", 5), "--stress", "leave out --length")
-    assert "--external" not in pdr("bench", "--stress", "--length", 5).stderr, "that one takes a length"
+    answer = pdr("bench", "--stress", "--length", 5)
+    check_refused(answer, "--stress", "leave out --length")
+    assert "--external" not in answer.stderr, "that one takes a length"
 
 
 def test_qius_walks_are_those_of_the_paper(tmp_path):
